@@ -64,7 +64,7 @@ unexport PYTHONDONTWRITEBYTECODE
 help:
 	@echo "make demo    events, film, picture and page from a sentence, in $(dir $(DEMO_OUT))"
 	@echo "make picture the demo, and README's picture of it"
-	@echo "make test    the default test suite, of texvent and of lab/: each row of each table once"
+	@echo "make test    the default test suite, of texvent and of lab/: a share of the rows of long tables"
 	@echo "make test-all     make test with all combinations of rows, and the long tests whole; part of CI"
 	@echo "make nightly      tests that take minutes each: extreme inputs, killed runs, no POSIX, damaged files"
 	@echo "make coverage     make test-all, with the share of the code that it runs; fails below the floor"

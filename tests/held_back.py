@@ -1,7 +1,5 @@
 """A simulator that answers when all frames are there."""
 
-from __future__ import annotations
-
 from texvent.simulation.esim.simulator import EsimSimulator
 
 

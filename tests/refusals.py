@@ -1,7 +1,5 @@
 """A table of what is refused: its words, and what lies just beside it and is accepted."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any

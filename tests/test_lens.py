@@ -1,7 +1,5 @@
 """Lenses beside OpenCV's models, and those that no image can have."""
 
-from __future__ import annotations
-
 import cv2
 import numpy as np
 import pytest
@@ -38,7 +36,7 @@ BOUNDS: dict[Distortion, tuple[float, ...]] = {
 
 @pytest.mark.parametrize("lens", LENSES)
 @given(x=st.floats(0.0, 160.0), y=st.floats(0.0, 120.0))
-def test_the_ray_through_a_point_leads_back_to_it(lens: Lens, x: float, y: float):
+def test_the_ray_through_a_point_leads_back_to_it(lens, x, y):
     point = np.array([[x, y]])
     plane = normalised(lens, point)
     back = distort(lens, plane) * [lens.fx, lens.fy] + [lens.cx, lens.cy]
@@ -48,9 +46,7 @@ def test_the_ray_through_a_point_leads_back_to_it(lens: Lens, x: float, y: float
 @pytest.mark.parametrize("model", DISTORTIONS)
 @given(data=st.data())
 @examples(25)
-def test_pixels_without_distortion_lie_where_opencv_puts_them(
-    model: Distortion, data: st.DataObject
-) -> None:
+def test_pixels_without_distortion_lie_where_opencv_puts_them(model, data):
     coefficients = tuple(data.draw(st.sampled_from([-one, 0.0, one])) for one in BOUNDS[model])
     lens = Lens(160.0, 170.0, 118.5, 92.5, model, coefficients)
     fx, fy, cx, cy = lens.intrinsics
@@ -75,7 +71,7 @@ def test_pixels_without_distortion_lie_where_opencv_puts_them(
         (Lens(40.0, 40.0, 400.0, 60.0, "equidistant"), "no ray reaches"),
     ],
 )
-def test_a_lens_that_cannot_fill_the_image_is_refused(lens: Lens, words: str) -> None:
+def test_a_lens_that_cannot_fill_the_image_is_refused(lens, words):
     with pytest.raises(ConfigError, match=words):
         lens_reach(lens, SIZE)
 
@@ -89,6 +85,6 @@ def test_a_lens_that_cannot_fill_the_image_is_refused(lens: Lens, words: str) ->
         ((110.0, 110.0, 80.0, 60.0, "radtan", (np.nan, 0.0)), "must be finite"),
     ],
 )
-def test_numbers_that_no_lens_has_are_refused(values: tuple, words: str) -> None:
+def test_numbers_that_no_lens_has_are_refused(values, words):
     with pytest.raises(ConfigError, match=words):
         Lens(*values)

@@ -1,7 +1,5 @@
 """A device that is named beats the variable, through every door that takes one."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Every function that takes `progress` tells whole steps of known work, to the end."""
 
-from __future__ import annotations
-
 from itertools import groupby
 from pathlib import Path
 

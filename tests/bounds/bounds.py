@@ -8,8 +8,6 @@ each alone is taken. A record is there as soon as its class checks its fields an
 that must be given is known here.
 """
 
-from __future__ import annotations
-
 import importlib
 import importlib.util
 import inspect

@@ -6,8 +6,6 @@
 option, or the next one, as there is no input and no folder for the output.
 """
 
-from __future__ import annotations
-
 import re
 import tempfile
 from collections.abc import Iterator

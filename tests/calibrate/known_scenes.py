@@ -1,7 +1,5 @@
 """Known scenes, at rest or flickering, simulated by a fitted model."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

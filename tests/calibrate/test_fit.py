@@ -46,6 +46,7 @@ def test_every_fitted_option_has_an_interval_that_holds_it(fit):
     assert {"noise_curve", "leak_rate_hz", "threshold_sigma", "refractory_period_us"} <= kept
 
 
+@pytest.mark.long
 def test_a_third_of_a_second_is_fitted_and_says_what_it_does_not_tell():
     fit = fit_sensor(record(moving_blobs(19), TRUTH), start=START)
     # Balance and threshold can stand in for each other in so little time: the interval says so.

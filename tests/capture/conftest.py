@@ -1,7 +1,5 @@
 """Small clips, written with PyAV, for the tests of this folder."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Frames of AEDAT4 recordings: made byte by byte, by dv-processing, and by a real camera."""
 
-from __future__ import annotations
-
 import datetime
 import struct
 from collections.abc import Mapping

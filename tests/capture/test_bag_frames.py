@@ -1,7 +1,5 @@
 """Images of ROS bags: every encoding, both ROS, raw and compressed, one topic of several."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 
@@ -55,9 +53,7 @@ def frames(path: Path, **options: Any) -> list[Any]:
 @pytest.mark.parametrize("version", [1, 2])
 @pytest.mark.parametrize("big", [False, True])
 @pytest.mark.parametrize("encoding", ENCODINGS)
-def test_images_of_every_encoding_are_read_at_their_stamps(
-    tmp_path: Path, version: int, big: bool, encoding: str
-) -> None:
+def test_images_of_every_encoding_are_read_at_their_stamps(tmp_path, version, big, encoding):
     kind, count, _ = ENCODINGS[encoding]
     pictures = PICTURES.astype(kind)
     wanted = pictures[..., 0] if count == 1 else pictures
@@ -76,9 +72,7 @@ def test_images_of_every_encoding_are_read_at_their_stamps(
 
 @pytest.mark.parametrize("pattern", BAYER)
 @pytest.mark.parametrize("colour", [(200, 0, 0), (0, 200, 0), (0, 0, 200)])
-def test_a_mosaic_of_one_colour_is_that_colour(
-    tmp_path: Path, pattern: str, colour: tuple[int, int, int]
-) -> None:
+def test_a_mosaic_of_one_colour_is_that_colour(tmp_path, pattern, colour):
     tile = np.array([["rgb".index(one) for one in pattern]]).reshape(2, 2)
     mosaic = np.tile(np.array(colour, np.uint8)[tile], (2, 3))[..., None]
     sent = [image(2, t_us, mosaic, f"bayer_{pattern}8") for t_us in TIMES_US]
@@ -87,7 +81,7 @@ def test_a_mosaic_of_one_colour_is_that_colour(
 
 
 @pytest.mark.parametrize("version", [1, 2])
-def test_one_topic_of_several_is_chosen_raw_or_compressed(tmp_path: Path, version: int) -> None:
+def test_one_topic_of_several_is_chosen_raw_or_compressed(tmp_path, version):
     pictures = PICTURES.astype(np.uint8)
     rows = list(zip(TIMES_US, pictures, strict=True))
     raw = [image(version, t_us, one, "rgb8") for t_us, one in rows]
@@ -108,7 +102,7 @@ def test_one_topic_of_several_is_chosen_raw_or_compressed(tmp_path: Path, versio
         frames(tmp_path / "clip.npy", topic="left", fps=50)
 
 
-def test_a_topic_without_messages_is_no_choice(tmp_path: Path) -> None:
+def test_a_topic_without_messages_is_no_choice(tmp_path):
     sent = [image(2, t_us, PICTURE, "rgb8") for t_us in TIMES_US]
     path = bag(tmp_path, 2, {"/dead": (IMAGE, []), "/camera": (IMAGE, sent)})
     assert len(frames(path)) == len(TIMES_US)
@@ -132,7 +126,7 @@ def packed(by: int) -> bytes:
     return whole[:-by]
 
 
-def test_the_last_row_may_end_with_its_pixels(tmp_path: Path) -> None:
+def test_the_last_row_may_end_with_its_pixels(tmp_path):
     sent = [image(2, TIMES_US[0], PICTURE, "rgb8"), shortened(PADDING)]
     path = bag(tmp_path, 2, {"/camera": (IMAGE, sent)})
     np.testing.assert_array_equal(frames(path)[1].pixels, PICTURE)
@@ -151,7 +145,7 @@ def test_the_last_row_may_end_with_its_pixels(tmp_path: Path) -> None:
         (packed(86), "a message of an image is cut off"),
     ],
 )
-def test_images_that_cannot_be_used_are_refused(tmp_path: Path, second: Any, said: str) -> None:
+def test_images_that_cannot_be_used_are_refused(tmp_path, second, said):
     sent = [image(2, TIMES_US[0], PICTURE, "rgb8"), second]
     with pytest.raises(TexventError, match=said):
         frames(bag(tmp_path, 2, {"/camera": (IMAGE, sent)}))
@@ -160,13 +154,13 @@ def test_images_that_cannot_be_used_are_refused(tmp_path: Path, second: Any, sai
 @pytest.mark.parametrize(
     "form", ["16UC1; compressedDepth png", "16UC1; png compressed ", "32FC1; tiff compressed "]
 )
-def test_compressed_depth_is_refused(tmp_path: Path, form: str) -> None:
+def test_compressed_depth_is_refused(tmp_path, form):
     depth = [compressed(1, TIMES_US[0], PICTURE, form)]
     with pytest.raises(FileFormatError, match="an image is of depth"):
         frames(bag(tmp_path, 1, {"/depth": (COMPRESSED, depth)}))
 
 
-def test_bags_without_images_are_refused(tmp_path: Path) -> None:
+def test_bags_without_images_are_refused(tmp_path):
     types = types_of(2)
     text = types.types["std_msgs/msg/String"]("{}")
     path = bag(tmp_path, 2, {"/texvent": ("std_msgs/msg/String", [text])})

@@ -1,7 +1,5 @@
 """Commands as a user types them, and the one line of those that are refused."""
 
-from __future__ import annotations
-
 import pytest
 
 from texvent.cli.app import main

@@ -1,7 +1,5 @@
 """`texvent doctor`: a sound installation row by row, and what each fault changes in it."""
 
-from __future__ import annotations
-
 import os
 import re
 import shutil
@@ -56,7 +54,7 @@ def wanted(extra: str = "") -> list[str]:
     return found
 
 
-def test_a_sound_installation_is_said_part_by_part(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_sound_installation_is_said_part_by_part(capsys):
     code, rows, others = report(capsys)
     assert (code, {mark for mark, *_ in rows.values()}) == (0, {"ok", "--"})
     version = ".".join(map(str, sys.version_info[:3]))
@@ -164,9 +162,7 @@ FAULTS: dict[str, tuple[Callable[[Patch, Path], None], Rows]] = {
 
 
 @pytest.mark.parametrize("fault", FAULTS)
-def test_a_fault_changes_its_own_rows_and_says_what_helps(
-    fault: str, tmp_path: Path, monkeypatch: Patch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_fault_changes_its_own_rows_and_says_what_helps(fault, tmp_path, monkeypatch, capsys):
     make, expected = FAULTS[fault]
     monkeypatch.setattr(shutil, "disk_usage", lambda path: SimpleNamespace(free=2**33))
     _, before, others = report(capsys)

@@ -1,7 +1,5 @@
 """Help fits a screen: what matters first, the rest by section."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """No input is overwritten, and a run that is stopped cleans up or keeps what it has."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import signal

@@ -1,7 +1,5 @@
 """`texvent scenes`: words by family, assets first; the sizes of nouns; bad input in a line."""
 
-from __future__ import annotations
-
 import pytest
 
 from texvent.cli.app import main

@@ -1,7 +1,5 @@
 """Commands whose standard output or error is closed, full, or read by nobody any more."""
 
-from __future__ import annotations
-
 import itertools
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Cut the committed clip; see README.md for the command."""
 
-from __future__ import annotations
-
 import sys
 from fractions import Fraction
 

@@ -3,8 +3,6 @@
 Not ComfyUI: no server, no cache. It follows `nodes.py` and `execution.py` of ComfyUI.
 """
 
-from __future__ import annotations
-
 import importlib.util
 import sys
 from pathlib import Path

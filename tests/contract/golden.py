@@ -5,8 +5,6 @@
 Cases use the public API alone, so they outlive any change of the code behind it.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import tempfile

@@ -4,8 +4,6 @@ One film has four bands that are known at any instant. Sampled at 30 to 500 fram
 given to every model and preset without noise.
 """
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Mapping
 from typing import Any

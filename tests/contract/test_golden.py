@@ -1,7 +1,5 @@
 """Events and files stay what they are: for a seed and options, and for events."""
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

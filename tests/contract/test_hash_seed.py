@@ -1,7 +1,5 @@
 """Hash seeds of Python, which order its sets, have no part in what is printed, read or drawn."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

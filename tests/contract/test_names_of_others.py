@@ -1,12 +1,10 @@
 """No text of a data set that somebody sent becomes a path outside the folder that was named."""
 
-from __future__ import annotations
-
 import contextlib
 import itertools
 import json
 import shutil
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -100,9 +98,7 @@ TEXTS = ("{abs}", "a/../../x", "x\ny", "", "\ud800")
         ("paper/train-000000.json", TEXTS),
     ],
 )
-def test_no_text_of_a_received_set_leaves_the_output(
-    received: Path, tmp_path: Path, document: str, chosen: Sequence[str]
-) -> None:
+def test_no_text_of_a_received_set_leaves_the_output(received, tmp_path, document, chosen):
     turns = itertools.cycle(one.replace("{abs}", str(tmp_path / "victim")) for one in chosen)
     folder = shutil.copytree(received, tmp_path / "sent/deep/set")
     (folder / "items.jsonl").unlink()
@@ -120,7 +116,7 @@ def test_no_text_of_a_received_set_leaves_the_output(
         shutil.rmtree(out)
 
 
-def test_no_fact_of_a_sample_leaves_the_output(received: Path, tmp_path: Path) -> None:
+def test_no_fact_of_a_sample_leaves_the_output(received, tmp_path):
     folder, out = shutil.copytree(received, tmp_path / "sent/set"), tmp_path / "a/out"
     shard = folder / "paper/train-000000.tar"
     record = read_record(shard)
@@ -143,9 +139,7 @@ def test_no_fact_of_a_sample_leaves_the_output(received: Path, tmp_path: Path) -
     assert files_beside(tmp_path, out) == before
 
 
-def test_links_of_a_received_set_lead_nowhere(
-    received: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_links_of_a_received_set_lead_nowhere(received, tmp_path, capsys):
     folder, elsewhere = tmp_path / "set", tmp_path / "elsewhere"
     shutil.copytree(received, folder)
     elsewhere.mkdir()
@@ -160,7 +154,7 @@ def test_links_of_a_received_set_lead_nowhere(
     assert [(one.name, one.read_text()) for one in elsewhere.iterdir()] == [("page", "mine")]
 
 
-def test_a_list_replaces_only_what_the_export_wrote(received: Path, tmp_path: Path) -> None:
+def test_a_list_replaces_only_what_the_export_wrote(received, tmp_path):
     out, dataset = tmp_path / "out", StoredDataset.open(received)
     export(dataset, "n-caltech101", out)
     export(dataset, "n-caltech101", out)
@@ -176,7 +170,7 @@ def test_a_list_replaces_only_what_the_export_wrote(received: Path, tmp_path: Pa
     "place",
     ["", ".", "..", "../x", "/x", "a/../x", "a//b", "x\ny", "x\0", "a\\b", " ", "x" * 256],
 )
-def test_names_that_leave_a_folder_are_refused(tmp_path: Path, place: str) -> None:
+def test_names_that_leave_a_folder_are_refused(tmp_path, place):
     with pytest.raises(TexventError, match="no file"):
         inside(tmp_path, place)
     assert inside(tmp_path, "train/voilà 🦩.h5") == tmp_path / "train/voilà 🦩.h5"

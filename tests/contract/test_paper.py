@@ -3,8 +3,6 @@
 Equations are in test_equations_table.py. What needs weights is built with random ones.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """What a release consists of agrees: versions, the package page, workflows, containers."""
 
-from __future__ import annotations
-
 import re
 import tomllib
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Every promise of SECURITY.md names its tests."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Zero is a value: nowhere is a number that may be None taken for "not given" because it is 0."""
 
-from __future__ import annotations
-
 import ast
 from collections import defaultdict
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """A small data set, made once for the tests of what is done with data sets."""
 
-from __future__ import annotations
-
 import shutil
 from pathlib import Path
 from typing import Any

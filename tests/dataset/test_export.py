@@ -1,7 +1,5 @@
 """Every layout is read back, by its own readers where there are any, with the same events."""
 
-from __future__ import annotations
-
 import io
 import json
 import re
@@ -23,7 +21,7 @@ from texvent.dataset.stored.folder import StoredDataset
 from texvent.errors import ConfigError, InputError, OutputError
 
 
-def test_another_export_is_refused(cars: Path, tmp_path: Path) -> None:
+def test_another_export_is_refused(cars, tmp_path):
     made, out = StoredDataset.open(cars), tmp_path / "out"
     export(made, "hdf5", out, variant="paper")
     with pytest.raises(OutputError, match="variant was paper, is esim"):
@@ -34,7 +32,7 @@ def test_another_export_is_refused(cars: Path, tmp_path: Path) -> None:
         export(made, "zarr", tmp_path / "other")
 
 
-def test_noise_labels_go_where_they_can_be_held(tmp_path: Path) -> None:
+def test_noise_labels_go_where_they_can_be_held(tmp_path):
     noisy = make_set(
         tmp_path / "noisy",
         splits={"train": 1.0},
@@ -50,7 +48,7 @@ def test_noise_labels_go_where_they_can_be_held(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("began_us", [0, 5_000_000, -30_000])
-def test_a_layout_is_given_each_sample_with_its_span(tmp_path: Path, monkeypatch, began_us) -> None:
+def test_a_layout_is_given_each_sample_with_its_span(tmp_path, monkeypatch, began_us):
     np.save(tmp_path / "a.npy", np.random.default_rng(1).integers(0, 255, (5, 12, 16), np.uint8))
     times = [(began_us + 20_000 * number) / 1e6 for number in range(5)]
     (tmp_path / "times.txt").write_text("".join(f"{one:.6f}\n" for one in times))
@@ -73,7 +71,7 @@ def test_a_layout_is_given_each_sample_with_its_span(tmp_path: Path, monkeypatch
     assert (sample.split, sample.size) == ("train", (16, 12))
 
 
-def test_classes_become_folder_names() -> None:
+def test_classes_become_folder_names():
     assert folder_name("../../etc") == "etc"
     assert re.fullmatch(r"[\w.-]+", folder_name("fire truck / red"))
     for label in ("///", "..", ".", "x" * 300):
@@ -119,8 +117,8 @@ def boxes_of(folder: Path) -> dict[str, list[Box]]:
 
 @pytest.mark.parametrize("layout", LAYOUTS)
 def test_every_layout_reads_back_as_the_events_boxes_splits_and_classes_that_were_made(
-    layout: str, traffic: Path, tmp_path: Path
-) -> None:
+    layout, traffic, tmp_path
+):
     classes = "car,bus" if LAYOUTS[layout].has_boxes else None
     done = export(StoredDataset.open(traffic), layout, tmp_path / "out", classes=classes)
     read, boxes = dict(READERS[layout](tmp_path / "out")), boxes_of(traffic)
@@ -149,9 +147,7 @@ def test_every_layout_reads_back_as_the_events_boxes_splits_and_classes_that_wer
     assert not read
 
 
-def test_layouts_with_boxes_from_the_command_line(
-    traffic: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_layouts_with_boxes_from_the_command_line(traffic, tmp_path, capsys):
     words = ["dataset", "export", str(traffic), "--classes", "car,bus", "--layout"]
     for name in ("rvt", "coco", "coco"):
         assert main([*words, name, "-o", str(tmp_path / name)]) == 0
@@ -166,9 +162,7 @@ def test_layouts_with_boxes_from_the_command_line(
     assert not [one for one in tmp_path.rglob("*") if one.name.startswith(".texvent")]
 
 
-def test_what_a_layout_cannot_hold_is_refused_at_the_door(
-    cars: Path, traffic: Path, tmp_path: Path
-) -> None:
+def test_what_a_layout_cannot_hold_is_refused_at_the_door(cars, traffic, tmp_path):
     out, boxes, none = tmp_path / "out", StoredDataset.open(traffic), StoredDataset.open(cars)
     with pytest.raises(InputError, match=r'has none; write truth = \["boxes"\] into the specif'):
         export(none, "rvt", out, variant="paper")
@@ -181,9 +175,7 @@ def test_what_a_layout_cannot_hold_is_refused_at_the_door(
     assert not out.exists()
 
 
-def test_classes_with_numbers_need_no_folder_names_and_large_numbers_give_way_to_places(
-    tmp_path: Path,
-) -> None:
+def test_classes_with_numbers_need_no_folder_names_and_large_numbers_give_way_to_places(tmp_path):
     for labels, numbers in ((("A", "a"), (0, 1)), (("10", "11"), (0, 1)), (("3", "7"), (3, 7))):
         name = "".join(labels)
         made = make_set(
@@ -202,7 +194,7 @@ def test_classes_with_numbers_need_no_folder_names_and_large_numbers_give_way_to
         export(StoredDataset.open(tmp_path / "Aa"), "n-imagenet", tmp_path / "no")
 
 
-def test_frames_that_cannot_be_made_again_are_said(traffic: Path, tmp_path: Path) -> None:
+def test_frames_that_cannot_be_made_again_are_said(traffic, tmp_path):
     copy = shutil.copytree(traffic, tmp_path / "copy")
     (copy / "items.jsonl").unlink()
     made = StoredDataset.open(copy)

@@ -1,7 +1,5 @@
 """Other libraries read the shards of a data set."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

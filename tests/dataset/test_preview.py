@@ -1,11 +1,8 @@
 """Pages and sheets show what is in the set, whatever stands in its captions."""
 
-from __future__ import annotations
-
 import html
 import inspect
 import re
-from pathlib import Path
 
 import cv2
 import numpy as np
@@ -20,9 +17,7 @@ from texvent.dataset.stored.folder import StoredDataset
 from texvent.errors import InputError
 
 
-def test_the_page_shows_every_sample_with_its_caption(
-    cars: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_page_shows_every_sample_with_its_caption(cars, tmp_path, capsys):
     out = tmp_path / "look.html"
     assert main(["dataset", "sample", str(cars), "-o", str(out), "-n", "100"]) == 0
     assert "9 samples of cars" in capsys.readouterr().out
@@ -36,7 +31,7 @@ def test_the_page_shows_every_sample_with_its_caption(
     assert [path.name for path in tmp_path.iterdir()] == ["look.html"]
 
 
-def test_videos_without_a_caption_have_their_names(tmp_path: Path) -> None:
+def test_videos_without_a_caption_have_their_names(tmp_path):
     (tmp_path / "left" / "a<b>").mkdir(parents=True)
     for number, image in enumerate(np.random.default_rng(0).integers(0, 255, (4, 12, 16))):
         cv2.imwrite(str(tmp_path / "left" / "a<b>" / f"{number}.png"), image)
@@ -49,7 +44,7 @@ def test_videos_without_a_caption_have_their_names(tmp_path: Path) -> None:
     assert "<strong>left/a&lt;b&gt;</strong>" in page
 
 
-def test_samples_are_chosen_by_chance_and_the_same_every_time(cars: Path) -> None:
+def test_samples_are_chosen_by_chance_and_the_same_every_time(cars):
     made = StoredDataset.open(cars)
 
     def keys(**choice: object) -> list[str]:
@@ -68,7 +63,7 @@ def test_samples_are_chosen_by_chance_and_the_same_every_time(cars: Path) -> Non
         keys(split="val")
 
 
-def test_samples_are_chosen_by_the_commands_defaults() -> None:
+def test_samples_are_chosen_by_the_commands_defaults():
     choice = inspect.signature(choose_samples).parameters.values()
     defaults = {one.name: one.default for one in choice if one.default is not one.empty}
     assert defaults == {name: getattr(SampleOptions, name) for name in defaults}

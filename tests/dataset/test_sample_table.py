@@ -1,7 +1,5 @@
 """Samples by number, stored or simulated: arrays are those of their events, batches of arrays."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from tests.dataset.conftest import dropped

@@ -1,11 +1,8 @@
 """Counts equal those of the samples themselves."""
 
-from __future__ import annotations
-
 import shutil
 from collections import Counter
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -27,7 +24,7 @@ from texvent.dataset.stored.folder import StoredDataset
 from texvent.prompt_report import PromptReport
 
 
-def test_counts_are_those_of_the_samples(cars: Path) -> None:
+def test_counts_are_those_of_the_samples(cars):
     statistics = DatasetStatistics.of(StoredDataset.open(cars))
     total = statistics.total
     events = [
@@ -45,7 +42,7 @@ def test_counts_are_those_of_the_samples(cars: Path) -> None:
     assert any("not understood" in warning for warning in total.warnings)
 
 
-def test_reasons_and_warnings_count_together_and_are_said(copied: Path) -> None:
+def test_reasons_and_warnings_count_together_and_are_said(copied):
     shard = copied / "paper" / "train-000000.tar"
     record = read_record(shard)
     assert record is not None
@@ -125,22 +122,20 @@ def test_figures_are_counts_of_the_records(first, second):
     assert trial.share(FAILED) * max(len(samples), 1) == pytest.approx(of.failed)
 
 
-def test_quantiles_by_hand() -> None:
+def test_quantiles_by_hand():
     assert quantiles([]) == {}
     facts = quantiles([1, 2, 3, 4, 100])
     assert (facts["mean"], facts["median"], facts["min"], facts["max"]) == (22.0, 3.0, 1.0, 100.0)
 
 
-def test_a_shard_of_another_set_is_not_counted(copied: Path) -> None:
+def test_a_shard_of_another_set_is_not_counted(copied):
     for suffix in (".tar", ".json"):
         own = copied / "esim" / f"train-000000{suffix}"
         shutil.copy(own, own.with_stem("train-000007"))
     assert DatasetStatistics.of(StoredDataset.open(copied)).total.samples == 9
 
 
-def test_the_first_sensors_are_named_where_there_are_any(
-    cars: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_first_sensors_are_named_where_there_are_any(cars, capsys):
     dataset = StoredDataset.open(cars)
     for count in (0, 1, 12, 14):
         statistics = DatasetStatistics.of(dataset)

@@ -1,7 +1,5 @@
 """Ground truth in data sets: stored as the scene or the labels know it, read, counted, drawn."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 from pathlib import Path
@@ -40,7 +38,7 @@ def labelled(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.long
-def test_truth_is_that_of_the_scene_in_every_variant(labelled: Path, tmp_path: Path) -> None:
+def test_truth_is_that_of_the_scene_in_every_variant(labelled, tmp_path):
     samples = texvent.dataset.open(labelled)
     assert len(samples) == 6
     for number, sample in enumerate(samples):
@@ -63,16 +61,14 @@ def test_truth_is_that_of_the_scene_in_every_variant(labelled: Path, tmp_path: P
     assert digests(make_set(tmp_path / "again", **TRUTH)) == digests(labelled)
 
 
-def test_without_classes_boxes_have_the_ids_of_nouns(tmp_path: Path) -> None:
+def test_without_classes_boxes_have_the_ids_of_nouns(tmp_path):
     folder = make_set(tmp_path / "cars", **{**TRUTH, "truth": ["boxes"], "classes": []})
     for sample in texvent.dataset.open(folder, variant="esim"):
         names = {sample.truth.classes[one] for one in sample.truth.boxes["class_id"].tolist()}
         assert names == ({"car"} if "car" in (sample.caption or "") else {"man", "cone"})
 
 
-def test_boxes_are_counted_checked_and_drawn(
-    labelled: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_boxes_are_counted_checked_and_drawn(labelled, tmp_path, capsys):
     none = make_set(tmp_path, **{**TRUTH, "truth": ["boxes"], "classes": ["dragonfly"]})
     assert main(["dataset", "stats", str(none)]) == 0
     assert "\nwarning  no sample shows: dragonfly\n" in capsys.readouterr().out
@@ -107,9 +103,7 @@ def test_boxes_are_counted_checked_and_drawn(
     assert verify(StoredDataset.open(labelled)).is_sound
 
 
-def test_a_split_without_a_class_of_boxes_is_told(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_split_without_a_class_of_boxes_is_told(tmp_path, capsys):
     file = tmp_path / "cars.yaml"
     file.write_text(
         json.dumps({**CARS, "truth": ["boxes"], "classes": ["car", "bus", "tree"], "variants": {}})
@@ -130,7 +124,7 @@ def test_a_split_without_a_class_of_boxes_is_told(
         assert "no box   of" not in out
 
 
-def test_targets_are_those_of_the_slice(labelled: Path, cars: Path) -> None:
+def test_targets_are_those_of_the_slice(labelled, cars):
     samples = texvent.dataset.open(labelled, variant="paper").with_targets("boxes", "flow", "depth")
     truth, made = samples[0].truth, samples.make(0)
     assert made["boxes"]["times"].tolist() == [0, 41_667, 83_333]
@@ -161,9 +155,7 @@ def twins(tmp_path_factory: pytest.TempPathFactory) -> tuple[StoredSamples, Simu
 
 
 @pytest.mark.parametrize("slice_us", [40_000, 120_000, 50_000])
-def test_targets_of_slices_are_those_of_the_same_clip_simulated(
-    twins: tuple[StoredSamples, SimulatedSamples], slice_us: int
-) -> None:
+def test_targets_of_slices_are_those_of_the_same_clip_simulated(twins, slice_us):
     stored, simulated = (
         one.represented("voxel-e2vid", slice_us=slice_us).with_targets("flow", "depth")
         for one in twins
@@ -187,7 +179,7 @@ def test_targets_of_slices_are_those_of_the_same_clip_simulated(
         assert np.quantile(off, 0.98) < 0.3
 
 
-def test_simulated_samples_have_boxes_too() -> None:
+def test_simulated_samples_have_boxes_too():
     options = {"sensor": "32x24", "duration": 0.1}
     made = SimulatedSamples(
         prompts=["a red car drives left"], slice_us=41_667, targets=("boxes", "instance"),
@@ -199,7 +191,7 @@ def test_simulated_samples_have_boxes_too() -> None:
 
 
 @pytest.mark.torch
-def test_batches_hold_a_table_of_boxes_per_sample(labelled: Path) -> None:
+def test_batches_hold_a_table_of_boxes_per_sample(labelled):
     torch = pytest.importorskip("torch")
     from texvent.dataset.torch_samples import SampleDataset, collate
 
@@ -231,14 +223,12 @@ def test_batches_hold_a_table_of_boxes_per_sample(labelled: Path) -> None:
         ({"options": {"generator": "opensora"}}, "does not know the scene of its"),
     ],
 )
-def test_truth_that_cannot_be_is_refused_before_any_work(
-    changes: dict[str, Any], said: str
-) -> None:
+def test_truth_that_cannot_be_is_refused_before_any_work(changes, said):
     with pytest.raises(ConfigError, match=said):
         Recipe.of(specification_from({**CARS, **TRUTH, **changes}, folder=Path()))
 
 
-def test_the_order_of_classes_is_part_of_the_identity() -> None:
+def test_the_order_of_classes_is_part_of_the_identity():
     def identity(*classes: str) -> str:
         tables = {**CARS, **TRUTH, "classes": list(classes)}
         recipe = Recipe.of(specification_from(tables, folder=Path()))
@@ -278,7 +268,7 @@ def video_set(folder: Path, source: dict[str, Any] | None = None, **changes: Any
     return Recipe.of(specification_from({**tables, **changes}, folder=folder))
 
 
-def test_labels_of_a_video_become_the_boxes_of_its_sample(filmed: Path, tmp_path: Path) -> None:
+def test_labels_of_a_video_become_the_boxes_of_its_sample(filmed, tmp_path):
     fitted = {"fps": 24, "interpolate": "none", "sensor": "16x12"}
     assert not make(video_set(filmed), tmp_path / "plain").failures
     rated = video_set(filmed, {"box_rate": 48}, options=fitted)
@@ -304,7 +294,7 @@ def test_labels_of_a_video_become_the_boxes_of_its_sample(filmed: Path, tmp_path
     assert cut.truth.boxes.tolist() == boxes[boxes["t"] < 100_000].tolist()
 
 
-def test_labels_of_more_frames_are_refused_before_any_work(filmed: Path, tmp_path: Path) -> None:
+def test_labels_of_more_frames_are_refused_before_any_work(filmed, tmp_path):
     (tmp_path / "clips").mkdir()
     np.save(tmp_path / "clips/car.npy", np.load(filmed / "clips/car.npy")[:3])
     (tmp_path / "car.json").write_bytes((filmed / "car.json").read_bytes())
@@ -341,8 +331,6 @@ def test_labels_of_more_frames_are_refused_before_any_work(filmed: Path, tmp_pat
         ),
     ],
 )
-def test_labels_that_cannot_be_are_refused_before_any_work(
-    filmed: Path, changes: dict[str, Any], said: str
-) -> None:
+def test_labels_that_cannot_be_are_refused_before_any_work(filmed, changes, said):
     with pytest.raises(InputError, match=said):
         video_set(filmed, **changes)

@@ -1,12 +1,9 @@
 """`verify` finds each kind of damage, and nothing in a sound set or a published copy of one."""
 
-from __future__ import annotations
-
 import json
 import shutil
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -39,7 +36,7 @@ def record_of(shard: Path) -> ShardRecord:
     return record
 
 
-def test_a_sound_set_is_sound(cars: Path) -> None:
+def test_a_sound_set_is_sound(cars):
     findings = check(cars)
     assert findings.is_sound
     assert not findings.notes
@@ -51,7 +48,7 @@ def test_a_sound_set_is_sound(cars: Path) -> None:
             assert shard.files(sample).read(("cls",)) == {"cls": str(number).encode()}
 
 
-def test_stored_videos_are_checked_and_a_copy_may_leave_them_out(tmp_path: Path) -> None:
+def test_stored_videos_are_checked_and_a_copy_may_leave_them_out(tmp_path):
     one = {"sources": [{"prompts": ["a red bus drives left"]}], "splits": {"train": 1.0}}
     folder = make_set(tmp_path / "stored", **one, variants={"paper": {}}, store_videos=True)
     videos = folder / "videos"
@@ -67,7 +64,7 @@ def test_stored_videos_are_checked_and_a_copy_may_leave_them_out(tmp_path: Path)
     assert (whole.shards, without.shards) == (2, 1)
 
 
-def test_missing_changed_and_foreign_files_are_told_apart(copied: Path) -> None:
+def test_missing_changed_and_foreign_files_are_told_apart(copied):
     (copied / "esim" / "test-000000.tar").unlink()
     (copied / "paper" / "test-000000.json").unlink()
     shard = copied / "paper" / "train-000000.tar"
@@ -88,7 +85,7 @@ def test_missing_changed_and_foreign_files_are_told_apart(copied: Path) -> None:
     ]
 
 
-def test_samples_that_cannot_be_used_are_named_although_digests_agree(copied: Path) -> None:
+def test_samples_that_cannot_be_used_are_named_although_digests_agree(copied):
     shard = copied / "paper" / "train-000000.tar"
     record = record_of(shard)
     samples, problems = [], iter(("outside", "order"))
@@ -123,9 +120,7 @@ def test_samples_that_cannot_be_used_are_named_although_digests_agree(copied: Pa
     [("key", "k"), ("clip", "k"), ("seed", 1), ("width", 33), ("height", 25), ("label", "k"),
      ("prompt", "k"), ("events", 1)],
 )  # fmt: skip
-def test_a_record_that_says_other_things_than_its_sample_is_found(
-    copied: Path, name: str, value: Any
-) -> None:
+def test_a_record_that_says_other_things_than_its_sample_is_found(copied, name, value):
     shard = copied / "paper" / "train-000000.tar"
     record = record_of(shard)
     first, *others = record.samples
@@ -134,7 +129,7 @@ def test_a_record_that_says_other_things_than_its_sample_is_found(
     assert ("caption" if name == "prompt" else name) in said
 
 
-def test_damaged_records_are_all_named(copied: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_damaged_records_are_all_named(copied, capsys):
     for variant in ("paper", "esim"):
         (copied / variant / "train-000000.json").write_text('{"name": "train')
     findings = check(copied)
@@ -144,7 +139,7 @@ def test_damaged_records_are_all_named(copied: Path, capsys: pytest.CaptureFixtu
     capsys.readouterr()
 
 
-def test_a_copy_without_items_is_checked_too(copied: Path) -> None:
+def test_a_copy_without_items_is_checked_too(copied):
     (copied / "items.jsonl").unlink()
     findings = check(copied)
     assert findings.is_sound
@@ -152,9 +147,7 @@ def test_a_copy_without_items_is_checked_too(copied: Path) -> None:
     assert main(["dataset", "make", str(copied)]) == 2
 
 
-def test_the_command_says_it_in_its_exit_code(
-    copied: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_command_says_it_in_its_exit_code(copied, capsys):
     assert main(["dataset", "verify", str(copied)]) == 0
     assert "all is well" in capsys.readouterr().out
     (copied / "esim" / "test-000000.tar").unlink()
@@ -163,7 +156,7 @@ def test_the_command_says_it_in_its_exit_code(
     assert main(["dataset", "verify", str(copied / "esim")]) == 2
 
 
-def test_a_shard_of_a_high_number_is_counted_and_lists_nothing(copied: Path) -> None:
+def test_a_shard_of_a_high_number_is_counted_and_lists_nothing(copied):
     (copied / "items.jsonl").unlink()
     for suffix in (".tar", ".json"):
         own = copied / "esim" / f"test-000000{suffix}"
@@ -192,9 +185,7 @@ def test_a_shard_of_a_high_number_is_counted_and_lists_nothing(copied: Path) -> 
         ("unknown", 1),
     ],
 )
-def test_wrong_values_of_a_record_are_damage(
-    copied: Path, name: str, value: Any, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_wrong_values_of_a_record_are_damage(copied, name, value, capsys):
     path = copied / "paper" / "train-000000.json"
     tables = json.loads(path.read_text())
     tables["samples"][0][name] = value
@@ -205,7 +196,7 @@ def test_wrong_values_of_a_record_are_damage(
         assert main(["dataset", words[0], str(copied), *words[1:]]) in (0, 2)
 
 
-def test_a_specification_cannot_ask_for_shards_without_end() -> None:
+def test_a_specification_cannot_ask_for_shards_without_end():
     tables = {"name": "n", "sources": [{"prompts": ["a car"]}], "repeats": 10**8}
     specification = specification_from({**tables, "samples_per_shard": 1}, folder=Path())
     with pytest.raises(ConfigError, match="100,000,000 shards are too many"):

@@ -1,7 +1,5 @@
 """No extreme number ends in a traceback, a hang, a crash or in more memory than allowed."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

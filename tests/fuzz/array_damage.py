@@ -1,7 +1,5 @@
 """What happens to NumPy's files and to zip archives: wrong types, lengths and members."""
 
-from __future__ import annotations
-
 import io
 import os
 import pickle

@@ -1,7 +1,5 @@
 """What happens to bytes: each function makes a damaged copy of a file's content."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Callable
 

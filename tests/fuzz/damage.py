@@ -1,7 +1,5 @@
 """Damage one file of an input; which damage follows from the number alone."""
 
-from __future__ import annotations
-
 import gzip
 import random
 import zipfile

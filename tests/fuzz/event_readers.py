@@ -1,7 +1,5 @@
 """Every event format, and layouts that former versions wrote."""
 
-from __future__ import annotations
-
 import shutil
 from functools import partial
 from pathlib import Path

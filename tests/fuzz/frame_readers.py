@@ -1,7 +1,5 @@
 """Videos, image folders, arrays and the frames of recordings."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from functools import partial
 from pathlib import Path

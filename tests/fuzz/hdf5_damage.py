@@ -1,7 +1,5 @@
 """What happens to HDF5: sound files whose objects are of another kind, type, shape or length."""
 
-from __future__ import annotations
-
 import random
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Tables and arrays that the laboratory reads, where it is installed."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import asdict
 from functools import partial

@@ -1,7 +1,5 @@
 """Motion vectors, depth and passes beside frames, in every format."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Callable
 from fractions import Fraction

@@ -6,8 +6,6 @@
 library are left out: another version of it may read what this one refuses.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 

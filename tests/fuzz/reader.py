@@ -1,7 +1,5 @@
 """What is fuzzed: something that makes a sound input, and the function of texvent that reads it."""
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass

@@ -1,9 +1,7 @@
 """Damaged inputs for every reader: those of `outcomes.txt`, or as many as $FUZZ_INPUTS says."""
 
-from __future__ import annotations
-
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -28,7 +26,7 @@ def worker() -> Iterator[Worker]:
 
 
 @pytest.mark.parametrize("name", readers())
-def test_damaged_inputs_are_read_or_refused_in_one_line(worker: Worker, name: str) -> None:
+def test_damaged_inputs_are_read_or_refused_in_one_line(worker, name):
     marks = STORED.get(name, [])
     outcomes = [worker.one(name, number) for number in range(max(INPUTS, len(marks)))]
     if outcomes[0].kind == "not run":
@@ -38,7 +36,7 @@ def test_damaged_inputs_are_read_or_refused_in_one_line(worker: Worker, name: st
 
 
 @pytest.mark.parametrize("path", FINDINGS, ids=lambda path: f"{path.parent.name}-{path.name}")
-def test_a_finding_is_refused_in_one_line(worker: Worker, path: Path) -> None:
+def test_a_finding_is_refused_in_one_line(worker, path):
     assert worker.one(f"events {path.parent.name}", 0, path).kind == "refused"
 
 
@@ -55,9 +53,7 @@ def test_a_finding_is_refused_in_one_line(worker: Worker, path: Path) -> None:
         ("blow-up", lambda path: open_nothing(MemoryError())),
     ],
 )
-def test_a_reader_that_misbehaves_is_told_from_one_that_refuses(
-    kind: str, read: Callable[[Path], str]
-) -> None:
+def test_a_reader_that_misbehaves_is_told_from_one_that_refuses(kind, read):
     reader = Reader("x", lambda folder: folder, read)
     assert outcome_of(reader, Path("input"), "sound").kind == kind
 

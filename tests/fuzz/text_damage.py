@@ -1,7 +1,5 @@
 """What happens to JSON, TOML, YAML, CSV and plain text: values of the wrong kind, deep nesting."""
 
-from __future__ import annotations
-
 import random
 import re
 

@@ -1,7 +1,5 @@
 """Configs, lists, times, calibrations, words of a command line; network weights without torch."""
 
-from __future__ import annotations
-
 import json
 from functools import partial
 from pathlib import Path

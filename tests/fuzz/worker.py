@@ -4,8 +4,6 @@ Whatever libraries print goes nowhere. The parent ends the process when a reader
 memory, and begins another one.
 """
 
-from __future__ import annotations
-
 import functools
 import multiprocessing
 import os

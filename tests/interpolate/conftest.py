@@ -1,7 +1,5 @@
 """Frames and streams that the tests of all interpolators share."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Eq. 4: how many intermediate frames, and when."""
 
-from __future__ import annotations
-
 import math
 from fractions import Fraction
 

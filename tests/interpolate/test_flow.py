@@ -1,7 +1,5 @@
 """Motion-compensated interpolation."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

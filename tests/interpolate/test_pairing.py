@@ -1,7 +1,5 @@
 """Source frames stay, intermediate frames come between, jumps are not smeared."""
 
-from __future__ import annotations
-
 import math
 import weakref
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Linear blending, and frames rendered by the scene itself."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import numpy as np

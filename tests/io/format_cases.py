@@ -1,7 +1,5 @@
 """The formats that are tested alike: which file, which sensor, which times they hold."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any

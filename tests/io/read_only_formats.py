@@ -1,7 +1,5 @@
 """Files of formats that texvent only reads, made as their own programs make them."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

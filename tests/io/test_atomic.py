@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import errno
 from collections.abc import Callable
 from pathlib import Path
@@ -11,7 +9,7 @@ from texvent.errors import OutputError
 from texvent.io.atomic import atomic_file, check_output, check_output_folder, is_disk_full
 
 
-def test_the_file_appears_only_when_the_block_ends(tmp_path: Path) -> None:
+def test_the_file_appears_only_when_the_block_ends(tmp_path):
     target = tmp_path / "out.bin"
     with atomic_file(target, overwrite=False) as part:
         part.write_bytes(b"new")
@@ -22,9 +20,7 @@ def test_the_file_appears_only_when_the_block_ends(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("error", [ValueError, KeyboardInterrupt, SystemExit, GeneratorExit])
-def test_any_exception_leaves_the_old_file_and_nothing_else(
-    tmp_path: Path, error: type[BaseException]
-) -> None:
+def test_any_exception_leaves_the_old_file_and_nothing_else(tmp_path, error):
     target = tmp_path / "out.bin"
     target.write_bytes(b"old")
     with pytest.raises(error):
@@ -45,7 +41,7 @@ def _write_while_another_does(target: Path) -> None:
         target.write_bytes(b"theirs")
 
 
-def test_a_file_made_by_somebody_else_meanwhile_is_not_replaced(tmp_path: Path) -> None:
+def test_a_file_made_by_somebody_else_meanwhile_is_not_replaced(tmp_path):
     target = tmp_path / "out.bin"
     with pytest.raises(OutputError, match="exists already"):
         _write_while_another_does(target)
@@ -53,12 +49,12 @@ def test_a_file_made_by_somebody_else_meanwhile_is_not_replaced(tmp_path: Path) 
     assert list(tmp_path.iterdir()) == [target]
 
 
-def test_a_missing_folder_is_named_with_the_command_that_makes_it(tmp_path: Path) -> None:
+def test_a_missing_folder_is_named_with_the_command_that_makes_it(tmp_path):
     with pytest.raises(OutputError, match="does not exist; create it with: mkdir -p"):
         check_output(tmp_path / "no" / "out.bin", overwrite=False)
 
 
-def test_folders_and_devices_are_never_replaced(tmp_path: Path) -> None:
+def test_folders_and_devices_are_never_replaced(tmp_path):
     with pytest.raises(OutputError, match="it is a folder"):
         check_output(tmp_path, overwrite=True)
     with pytest.raises(OutputError, match="not a regular file"):
@@ -76,9 +72,7 @@ ENTRIES: dict[str, Callable[[Path], object]] = {
 
 @pytest.mark.parametrize("is_nested", [False, True])
 @pytest.mark.parametrize("entry", ENTRIES)
-def test_a_folder_is_replaced_if_all_that_it_holds_is_of_its_kind(
-    tmp_path: Path, entry: str, is_nested: bool
-) -> None:
+def test_a_folder_is_replaced_if_all_that_it_holds_is_of_its_kind(tmp_path, entry, is_nested):
     (tmp_path / "out").mkdir()
     ENTRIES[entry](tmp_path / "out" / entry)
     options: dict[str, Any] = {"is_own": lambda path: path.name == "own", "is_nested": is_nested}
@@ -93,7 +87,7 @@ def test_a_folder_is_replaced_if_all_that_it_holds_is_of_its_kind(
         check_output_folder(tmp_path / "out", overwrite=True, **options)
 
 
-def test_a_symbolic_link_keeps_pointing_at_the_replaced_file(tmp_path: Path) -> None:
+def test_a_symbolic_link_keeps_pointing_at_the_replaced_file(tmp_path):
     real, link = tmp_path / "real.bin", tmp_path / "link.bin"
     real.write_bytes(b"old")
     link.symlink_to(real)
@@ -103,7 +97,7 @@ def test_a_symbolic_link_keeps_pointing_at_the_replaced_file(tmp_path: Path) -> 
     assert real.read_bytes() == b"new"
 
 
-def test_other_system_errors_are_not_called_a_full_disk() -> None:
+def test_other_system_errors_are_not_called_a_full_disk():
     assert not is_disk_full(OSError(errno.EACCES, "Permission denied"))
     assert not is_disk_full(ValueError("No space left on device"))
     assert is_disk_full(OSError(errno.EDQUOT, "Disk quota exceeded"))

@@ -1,12 +1,9 @@
 """Compressed files are read or named; pipes, locks and other forms are refused in one line."""
 
-from __future__ import annotations
-
 import bz2
 import gzip
 import lzma
 import os
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -38,7 +35,7 @@ PACK = {
 
 @pytest.mark.parametrize("extension", PACK)
 @pytest.mark.parametrize("name", ["e.txt", "e.csv"])
-def test_compressed_texts_are_read(name: str, extension: str) -> None:
+def test_compressed_texts_are_read(name, extension):
     events = random_events(3000, SIZE, span_us=900_000)
     save(name, events)
     packed = Path(f"packed-{name}{extension}")
@@ -50,7 +47,7 @@ def test_compressed_texts_are_read(name: str, extension: str) -> None:
 
 @pytest.mark.parametrize("extension", [".gz", ".bz2", ".zst"])
 @pytest.mark.parametrize("name", ["e.txt", "e.csv"])
-def test_of_a_cut_text_the_rows_before_the_end_are_repaired(name: str, extension: str) -> None:
+def test_of_a_cut_text_the_rows_before_the_end_are_repaired(name, extension):
     """Where they are packed in blocks of which some are whole."""
     events = random_events(100_000, SIZE, span_us=9_000_000)
     data = PACK[extension](Path(save(name, events)).read_bytes())
@@ -77,9 +74,7 @@ def test_of_a_cut_text_the_rows_before_the_end_are_repaired(name: str, extension
         ("e.mat", b"MATLAB 5.0" + bytes(99), "save it with -v7.3"),
     ],
 )
-def test_what_is_not_read_is_named_with_a_way(
-    name: str, start: bytes, command: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_what_is_not_read_is_named_with_a_way(name, start, command, capsys):
     Path(name).write_bytes(start)
     for words in (["info", name], ["convert", name, "o.h5"], ["validate", name]):
         assert main([*words, "--sensor", "64x48"]) == 2
@@ -89,7 +84,7 @@ def test_what_is_not_read_is_named_with_a_way(
     assert not Path("o.h5").exists()
 
 
-def test_streams_of_n_mnist_have_two_extensions() -> None:
+def test_streams_of_n_mnist_have_two_extensions():
     events = random_events(50, SensorSize(34, 34), span_us=900)
     save("e.bin", events)
     Path("e.bs2").write_bytes(Path("e.bin").read_bytes())
@@ -108,15 +103,13 @@ def test_streams_of_n_mnist_have_two_extensions() -> None:
     ],
     ids=["info", "convert", "validate", "render", "compare"],
 )
-def test_a_named_pipe_is_refused_at_every_door(
-    door: Callable[[str], int], name: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_named_pipe_is_refused_at_every_door(door, name, capsys):
     os.mkfifo(name)
     assert door(name) == 2
     assert "is a device or a pipe; give the name of an event file" in capsys.readouterr().err
 
 
-def test_a_locked_file_is_not_called_damaged(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_locked_file_is_not_called_damaged(capsys):
     save("e.h5", random_events(50, SIZE))
     real = h5py.File
 
@@ -149,7 +142,7 @@ def test_a_locked_file_is_not_called_damaged(capsys: pytest.CaptureFixture[str])
         ["compare", "e.h5", "-"],
     ],
 )
-def test_a_dash_is_no_file(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_dash_is_no_file(words, capsys):
     save("e.h5", random_events(50, SIZE))
     assert main(words) == 2
     assert "standard input and output are not read or written as files" in capsys.readouterr().err

@@ -4,8 +4,6 @@ They are also the seeds of `tests/fuzz`. A new format's file is made by
 `python -m tests.io.test_corpus` in the repository's root, which never touches existing ones.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest
@@ -40,7 +38,7 @@ OTHER_LAYOUTS = (
 
 
 @pytest.mark.parametrize("case", [*ALL_CASES, *OTHER_LAYOUTS], ids=lambda case: case.name)
-def test_a_committed_file_still_reads(case: FormatCase) -> None:
+def test_a_committed_file_still_reads(case):
     if case.extra:
         pytest.importorskip(case.extra, reason=f"{case.name} needs {case.extra}")
     format = None if case in OTHER_LAYOUTS else case.name
@@ -51,9 +49,7 @@ def test_a_committed_file_still_reads(case: FormatCase) -> None:
 
 
 @pytest.mark.parametrize("case", ALL_CASES, ids=lambda case: case.name)
-def test_every_command_of_event_files_takes_a_committed_file(
-    case: FormatCase, tmp_path: Path
-) -> None:
+def test_every_command_of_event_files_takes_a_committed_file(case, tmp_path):
     if case.extra:
         pytest.importorskip(case.extra, reason=f"{case.name} needs {case.extra}")
     path = str(CORPUS / case.name / case.file)

@@ -1,16 +1,13 @@
 """A cut file of every format is refused, or gives its beginning. Other damage: `tests/fuzz`."""
 
-from __future__ import annotations
-
 import importlib.util
-from pathlib import Path
 
 import pytest
 
 from texvent.errors import InputError
 from texvent.io.files import load
 
-from .format_cases import ALL_CASES, FormatCase
+from .format_cases import ALL_CASES
 from .test_corpus import CORPUS, expected
 
 FILES = [
@@ -33,9 +30,7 @@ def cuts(length: int) -> list[int]:
 
 
 @pytest.mark.parametrize("case", FILES, ids=lambda case: case.name)
-def test_a_file_cut_at_any_byte_is_refused_or_gives_its_beginning(
-    tmp_path: Path, case: FormatCase
-) -> None:
+def test_a_file_cut_at_any_byte_is_refused_or_gives_its_beginning(tmp_path, case):
     whole = expected(case)
     for beside in (CORPUS / case.name).iterdir():
         (tmp_path / beside.name).write_bytes(beside.read_bytes())

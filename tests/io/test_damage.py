@@ -3,8 +3,6 @@
 Examples are the same in every run: what a file format's library does with damage is its own.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import h5py

@@ -1,10 +1,7 @@
 """Bytes worked out by hand from each format's description, and the traps of reading."""
 
-from __future__ import annotations
-
 import struct
 import zipfile
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -34,9 +31,7 @@ def one(x: int, y: int, t: int, p: int, size: SensorSize) -> EventStream:
         ({"format": "cifar10-dvs"}, DVS, (127 - 10) << 8 | (127 - 20) << 1 | 0),
     ],
 )
-def test_aedat2_records_are_big_endian_addresses_and_times(
-    tmp_path: Path, options: dict[str, str], size: tuple[int, int], address: int
-) -> None:
+def test_aedat2_records_are_big_endian_addresses_and_times(tmp_path, options, size, address):
     path = tmp_path / "e.aedat"
     end = b"#End Of ASCII Header\r\n"
     path.write_bytes(b"#!AER-DAT2.0\r\n" + end + struct.pack(">II", address, 1234))
@@ -54,9 +49,7 @@ def test_aedat2_records_are_big_endian_addresses_and_times(
         ("eu.seebetter.ini.chips.davis.Davis346blue", (346, 260)),
     ],
 )
-def test_the_chip_of_jaer_names_sensor_and_layout(
-    tmp_path: Path, chip: str, size: tuple[int, int] | None
-) -> None:
+def test_the_chip_of_jaer_names_sensor_and_layout(tmp_path, chip, size):
     path = tmp_path / "e.aedat"
     width, height = size or (346, 260)
     record = struct.pack(">II", (height - 1) << 22 | (width - 1) << 12, 7)
@@ -68,7 +61,7 @@ def test_the_chip_of_jaer_names_sensor_and_layout(
         assert load(path).equals(one(0, 0, 7, 0, SensorSize(*size)))
 
 
-def test_aedat3_counts_turns_of_the_clock(tmp_path: Path) -> None:
+def test_aedat3_counts_turns_of_the_clock(tmp_path):
     header = b"#!AER-DAT3.1\r\n#Format: RAW\r\n#Size: 128x128\r\n#!END-HEADER\r\n"
     head = struct.pack("<hhiiiiii", 1, 1, 8, 4, 1, 1, 1, 1)
     path = tmp_path / "e.aedat"
@@ -79,7 +72,7 @@ def test_aedat3_counts_turns_of_the_clock(tmp_path: Path) -> None:
 EVENT_STREAM = b"Event Stream\x02\x00\x00\x01" + struct.pack("<HH", 300, 10)
 
 
-def test_event_stream_bytes_count_rows_from_below(tmp_path: Path) -> None:
+def test_event_stream_bytes_count_rows_from_below(tmp_path):
     events = EventStream.from_columns(
         [1, 258], [0, 9], [126, 126 + 127 + 3], [1, 0], size=SensorSize(300, 10)
     )
@@ -105,9 +98,7 @@ def test_event_stream_bytes_count_rows_from_below(tmp_path: Path) -> None:
         ((15, 9), r"type 9 \(unknown\)"),
     ],
 )
-def test_other_event_streams_are_named(
-    tmp_path: Path, change: tuple[int, int], message: str
-) -> None:
+def test_other_event_streams_are_named(tmp_path, change, message):
     content = bytearray(EVENT_STREAM)
     content[change[0]] = change[1]
     path = tmp_path / "e.es"
@@ -116,7 +107,7 @@ def test_other_event_streams_are_named(
         load(path)
 
 
-def test_a_dvs128_recording_of_jaer_is_read_as_jaer_shows_it(tmp_path: Path) -> None:
+def test_a_dvs128_recording_of_jaer_is_read_as_jaer_shows_it(tmp_path):
     """Bit 0 is 0 for ON, x is mirrored, y counts from the bottom, bit 15 is no event."""
     chip = b"# AEChip: ch.unizh.ini.jaer.chip.retina.DVS128\r\n"
     on_left_top = 127 << 8 | 127 << 1 | 0
@@ -132,7 +123,7 @@ def test_a_dvs128_recording_of_jaer_is_read_as_jaer_shows_it(tmp_path: Path) -> 
         ]
 
 
-def test_aedat2_of_an_unknown_camera_asks_for_a_sensor_that_can_be(tmp_path: Path) -> None:
+def test_aedat2_of_an_unknown_camera_asks_for_a_sensor_that_can_be(tmp_path):
     path = tmp_path / "camera.aedat"
     special = struct.pack(">II", 1 << 31 | 5, 6) + struct.pack(">II", 1 << 10, 7)
     event = struct.pack(">II", 259 << 22 | 345 << 12, 8)
@@ -147,7 +138,7 @@ def test_aedat2_of_an_unknown_camera_asks_for_a_sensor_that_can_be(tmp_path: Pat
         load(path)
 
 
-def test_aedat3_reads_over_other_packets_and_invalid_events(tmp_path: Path) -> None:
+def test_aedat3_reads_over_other_packets_and_invalid_events(tmp_path):
     header = b"#!AER-DAT3.1\r\n#Format: RAW\r\n#Source 1: DVS128\r\n#!END-HEADER\r\n"
     special = struct.pack("<hhiiiiii", 0, 1, 8, 4, 0, 1, 1, 1) + bytes(8)
     polarity = struct.pack("<hhiiiiii", 1, 1, 8, 4, 0, 4, 2, 1)
@@ -162,7 +153,7 @@ def test_aedat3_reads_over_other_packets_and_invalid_events(tmp_path: Path) -> N
         load(path)
 
 
-def test_atis_bytes_and_overflow_marks(tmp_path: Path) -> None:
+def test_atis_bytes_and_overflow_marks(tmp_path):
     path = save(tmp_path / "e.bin", one(10, 20, 0x12_3456, 1, DVS))
     assert path.read_bytes() == bytes([10, 20, 0x80 | 0x12, 0x34, 0x56])
     marks = bytes([0, 240, 0, 0, 0]) * 2
@@ -173,9 +164,7 @@ def test_atis_bytes_and_overflow_marks(tmp_path: Path) -> None:
         load(path)
 
 
-def test_a_zip_bomb_is_refused_before_it_is_unpacked(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_zip_bomb_is_refused_before_it_is_unpacked(tmp_path, monkeypatch):
     monkeypatch.setattr(memory, "SMALL_BYTES", 2**20)
     for name, entry in (("bomb.zip", "events.txt"), ("bomb.npz", "event_data.npy")):
         path = tmp_path / name
@@ -188,7 +177,7 @@ def test_a_zip_bomb_is_refused_before_it_is_unpacked(
             load(path)
 
 
-def test_a_packet_that_unpacks_without_end_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_packet_that_unpacks_without_end_is_refused(monkeypatch):
     packed = aedat4_packing.pack_lz4(bytes(3 * 2**20))
     assert aedat4_packing.unpack_lz4(packed) == bytes(3 * 2**20)
     monkeypatch.setattr(aedat4_packing, "MAX_PACKET_BYTES", 2**20)
@@ -196,7 +185,7 @@ def test_a_packet_that_unpacks_without_end_is_refused(monkeypatch: pytest.Monkey
         aedat4_packing.unpack_lz4(packed)
 
 
-def test_aedat4_of_a_recorder_that_crashed_is_read(tmp_path: Path) -> None:
+def test_aedat4_of_a_recorder_that_crashed_is_read(tmp_path):
     events = EventStream.from_columns([1, 2], [3, 4], [5, 60_000], [1, 0], size=DVS)
     path = save(tmp_path / "e.aedat4", events)
     content = bytearray(path.read_bytes())
@@ -208,7 +197,7 @@ def test_aedat4_of_a_recorder_that_crashed_is_read(tmp_path: Path) -> None:
     assert load(path).equals(events)
 
 
-def test_a_folder_of_esim_itself_needs_the_size(tmp_path: Path) -> None:
+def test_a_folder_of_esim_itself_needs_the_size(tmp_path):
     with pytest.raises(InputError, match="not one of event files that texvent knows"):
         open_events(tmp_path)
     folder = tmp_path / "esim"

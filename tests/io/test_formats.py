@@ -1,12 +1,9 @@
 """Every format carries every stream it can hold unchanged, and refuses the others by name."""
 
-from __future__ import annotations
-
 import itertools
 import re
 from collections.abc import Iterator
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -38,7 +35,7 @@ def case(request: pytest.FixtureRequest) -> FormatCase:
 
 
 @pytest.mark.parametrize("name", STREAMS)
-def test_every_stream_comes_back_unchanged(tmp_path: Path, case: FormatCase, name: str) -> None:
+def test_every_stream_comes_back_unchanged(tmp_path, case, name):
     stream = STREAMS[name](case)
     path = save(tmp_path / case.file, stream, format=case.name)
     back = load(path)
@@ -48,7 +45,7 @@ def test_every_stream_comes_back_unchanged(tmp_path: Path, case: FormatCase, nam
 
 
 @pytest.mark.parametrize("name", ["other", "other.dat", "other.xyz"])
-def test_content_decides_whatever_the_name(tmp_path: Path, case: FormatCase, name: str) -> None:
+def test_content_decides_whatever_the_name(tmp_path, case, name):
     stream = random_events(20, case.sensor)
     path = save(tmp_path / case.file, stream, format=case.name)
     codec = codec_for(path, case.name)
@@ -57,7 +54,7 @@ def test_content_decides_whatever_the_name(tmp_path: Path, case: FormatCase, nam
     assert load(path.rename(tmp_path / name)).equals(stream)
 
 
-def test_metadata_known_only_at_the_end_is_stored(tmp_path: Path, case: FormatCase) -> None:
+def test_metadata_known_only_at_the_end_is_stored(tmp_path, case):
     stream = random_events(3000, case.sensor)
     path = tmp_path / case.file
     with open_writer(path, size=stream.size, metadata=METADATA, format=case.name) as writer:
@@ -71,9 +68,7 @@ def test_metadata_known_only_at_the_end_is_stored(tmp_path: Path, case: FormatCa
     assert {one.name for one in tmp_path.iterdir()} <= beside
 
 
-def test_late_times_come_back_or_are_refused_before_anything_is_kept(
-    tmp_path: Path, case: FormatCase
-) -> None:
+def test_late_times_come_back_or_are_refused_before_anything_is_kept(tmp_path, case):
     path = tmp_path / case.file
     for last in (
         2**23 - 1,
@@ -105,16 +100,14 @@ def test_late_times_come_back_or_are_refused_before_anything_is_kept(
 
 
 @pytest.mark.parametrize("case", LIMITED, ids=lambda case: case.name)
-def test_a_sensor_that_does_not_fit_is_refused_with_the_formats_that_hold_it(
-    tmp_path: Path, case: FormatCase
-) -> None:
+def test_a_sensor_that_does_not_fit_is_refused_with_the_formats_that_hold_it(tmp_path, case):
     for size in (SensorSize(case.largest.width + 1, 1), SensorSize(1, case.largest.height + 1)):
         with pytest.raises(InputError, match=r"cannot write .* holds? sensors .*hdf5 \(\.h5\)"):
             open_writer(tmp_path / case.file, size=size, format=case.name)
     assert not list(tmp_path.iterdir())
 
 
-def test_labels_are_kept_or_left_out_with_one_warning(tmp_path: Path, case: FormatCase) -> None:
+def test_labels_are_kept_or_left_out_with_one_warning(tmp_path, case):
     events = at_times([1, 2], case.sensor)
     labelled = replace(events, label=np.array([0, 1]))
     packets = EventPackets([labelled[:1], labelled[1:]], events.size)
@@ -129,7 +122,7 @@ def test_labels_are_kept_or_left_out_with_one_warning(tmp_path: Path, case: Form
     save(path, labelled.without_label(), format=case.name, overwrite=True)  # no warning
 
 
-def test_packet_sizes_do_not_change_the_file(tmp_path: Path, case: FormatCase) -> None:
+def test_packet_sizes_do_not_change_the_file(tmp_path, case):
     whole = random_events(1000, case.sensor).with_metadata({"seed": 1})
     cuts = [0, 0, 1, 2, 500, 501, 1000]
     parts = [whole[start:stop] for start, stop in itertools.pairwise(cuts)]
@@ -147,7 +140,7 @@ def test_packet_sizes_do_not_change_the_file(tmp_path: Path, case: FormatCase) -
         assert files[0].read_bytes() == files[1].read_bytes()
 
 
-def test_an_error_midway_leaves_no_file(tmp_path: Path, case: FormatCase) -> None:
+def test_an_error_midway_leaves_no_file(tmp_path, case):
     def packets() -> Iterator[EventStream]:
         yield random_events(300_000, case.sensor, span_us=1_000_000)
         raise RuntimeError("the simulator stopped")
@@ -157,16 +150,14 @@ def test_an_error_midway_leaves_no_file(tmp_path: Path, case: FormatCase) -> Non
     assert not list(tmp_path.iterdir())
 
 
-def test_packets_out_of_order_are_refused(tmp_path: Path, case: FormatCase) -> None:
+def test_packets_out_of_order_are_refused(tmp_path, case):
     late, early = at_times([50], case.sensor), at_times([49], case.sensor)
     with pytest.raises(InputError, match="in time order"):
         save(tmp_path / case.file, EventPackets([late, early], case.sensor), format=case.name)
     assert not list(tmp_path.iterdir())
 
 
-def test_an_existing_file_is_kept_unless_overwriting_is_allowed(
-    tmp_path: Path, case: FormatCase
-) -> None:
+def test_an_existing_file_is_kept_unless_overwriting_is_allowed(tmp_path, case):
     first, second = at_times([5], case.sensor), at_times([6, 7], case.sensor)
     path = save(tmp_path / case.file, first, format=case.name)
     with pytest.raises(OutputError, match="exists already"):
@@ -182,9 +173,7 @@ def test_an_existing_file_is_kept_unless_overwriting_is_allowed(
         assert [*tmp_path.iterdir()] == [beside]
 
 
-def test_metadata_that_is_not_json_is_refused_before_any_file_exists(
-    tmp_path: Path, case: FormatCase
-) -> None:
+def test_metadata_that_is_not_json_is_refused_before_any_file_exists(tmp_path, case):
     with pytest.raises(InputError, match="metadata cannot be stored"):
         open_writer(
             tmp_path / case.file, size=case.sensor, metadata={"a": object()}, format=case.name
@@ -192,9 +181,7 @@ def test_metadata_that_is_not_json_is_refused_before_any_file_exists(
     assert not list(tmp_path.iterdir())
 
 
-def test_an_empty_or_foreign_file_is_an_input_error_of_one_line(
-    tmp_path: Path, case: FormatCase
-) -> None:
+def test_an_empty_or_foreign_file_is_an_input_error_of_one_line(tmp_path, case):
     path = tmp_path / case.file
     for content in (b"", b"\x89PNG\r\n\x1a\n" + bytes(301), b"three words here\n"):
         path.write_bytes(content)
@@ -222,12 +209,7 @@ def test_an_empty_or_foreign_file_is_an_input_error_of_one_line(
     cut=st.integers(0, 30),
     name=st.sampled_from([case.name for case in CASES]),
 )
-def test_any_events_cut_anywhere_come_back(
-    tmp_path_factory: pytest.TempPathFactory,
-    rows: list[tuple[int, int, int, bool]],
-    cut: int,
-    name: str,
-) -> None:
+def test_any_events_cut_anywhere_come_back(tmp_path_factory, rows, cut, name):
     chosen = next(case for case in CASES if case.name == name)
     rows = sorted(rows, key=lambda row: row[2])
     x, y, t, p = (list(column) for column in zip(*rows, strict=True)) if rows else ([],) * 4

@@ -4,8 +4,6 @@ They are no dependency of texvent, of its other tests or of its tools: that job 
 and selects these tests, which fail where a reader is missing. They read what few others read.
 """
 
-from __future__ import annotations
-
 import importlib
 from collections.abc import Iterable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What a killed process leaves behind is removed by the next one, and nothing else is."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

@@ -1,7 +1,5 @@
 """Units of time, polarity and labels of named columns are judged alike in every format of them."""
 
-from __future__ import annotations
-
 import itertools
 import warnings
 from collections.abc import Iterable, Mapping
@@ -98,7 +96,7 @@ TIMES: Mapping[str, tuple[NDArray[Any], NDArray[np.int64]]] = {
 
 
 @pytest.mark.parametrize(("kind", "times"), pairs(KINDS, TIMES))
-def test_the_whole_file_says_the_unit(kind: str, times: str) -> None:
+def test_the_whole_file_says_the_unit(kind, times):
     stored, true = TIMES[times]
     if kind in ("txt", "csv") and times == "µs as float":
         stored = T  # as a text, 1000.0 is of s
@@ -118,7 +116,7 @@ DOUBTED: Mapping[str, tuple[NDArray[Any], str]] = {
 
 
 @pytest.mark.parametrize(("kind", "times"), pairs(KINDS, DOUBTED))
-def test_a_doubtful_unit_is_said_with_the_likely_one(kind: str, times: str) -> None:
+def test_a_doubtful_unit_is_said_with_the_likely_one(kind, times):
     stored, unit = DOUBTED[times]
     if kind == "npy" and times == "ns since 1970":
         stored = stored.astype(np.int64)
@@ -130,14 +128,14 @@ def test_a_doubtful_unit_is_said_with_the_likely_one(kind: str, times: str) -> N
     assert said == []
 
 
-def test_short_and_small_recordings_are_not_doubted() -> None:
+def test_short_and_small_recordings_are_not_doubted():
     few = {"t": T[:50] // 1000, "x": X[:50], "y": Y[:50], "p": P[:50]}
     for columns in (few, {"t": np.arange(COUNT) * 16, "x": X, "y": Y, "p": P}):
         for kind in KINDS:
             assert found(written(kind, **columns))[1] == []
 
 
-def test_a_unit_given_against_the_stated_one_is_said() -> None:
+def test_a_unit_given_against_the_stated_one_is_said():
     path = Path("e.npz")
     np.savez(path, t_us=T, x=X, y=Y, p=P)
     assert found(path, time_unit="us")[1] == []
@@ -145,7 +143,7 @@ def test_a_unit_given_against_the_stated_one_is_said() -> None:
 
 
 @pytest.mark.parametrize(("kind", "unit"), pairs(("npz", "npy"), (1e6, 1.0)))
-def test_times_that_have_lost_the_microseconds_are_said(kind: str, unit: float) -> None:
+def test_times_that_have_lost_the_microseconds_are_said(kind, unit):
     late = (T / unit * 4).astype(np.float32)
     path = written(kind, t=late) if kind == "npz" else Path("e.npy")
     if kind == "npy":
@@ -153,7 +151,7 @@ def test_times_that_have_lost_the_microseconds_are_said(kind: str, unit: float) 
     assert "float32, which at the end keeps steps of" in found(path)[1][0]
 
 
-def test_digits_that_a_text_leaves_out_are_said() -> None:
+def test_digits_that_a_text_leaves_out_are_said():
     Path("e.txt").write_text("".join(f"{t + 16 * 10**8:g} 1 1 1\n" for t in T))
     assert "write all their digits" in found(Path("e.txt"))[1][0]
     np.savetxt("e.txt", np.stack([T, X, Y, P], axis=1))
@@ -162,7 +160,7 @@ def test_digits_that_a_text_leaves_out_are_said() -> None:
     assert said == []
 
 
-def test_numbers_with_fractions_far_behind_whole_ones_are_refused() -> None:
+def test_numbers_with_fractions_far_behind_whole_ones_are_refused():
     times = np.arange(40_000) * 20.0
     times[12_345] += 0.5
     zeros = np.zeros(40_000, int)
@@ -189,20 +187,20 @@ def polarities(off: Any, on: Any) -> NDArray[Any]:
         *itertools.product(("npz", "records.npy", "csv", "txt"), WORDS),
     ],
 )
-def test_polarity_is_read_in_every_code(kind: str, code: str) -> None:
+def test_polarity_is_read_in_every_code(kind, code):
     events, said = found(written(kind, p=polarities(*{**CODES, **WORDS}[code])))
     assert is_true(events), events
     assert ["read as OFF and ON" in one for one in said] == [True] * (code == "1/2")
 
 
 @pytest.mark.parametrize(("kind", "code"), pairs(KINDS, [(0, 2), (2, 2), (255, 255), (-1, 0)]))
-def test_polarity_that_can_mean_two_things_is_refused(kind: str, code: tuple[int, int]) -> None:
+def test_polarity_that_can_mean_two_things_is_refused(kind, code):
     options = {"columns": "t,x,y,p"} if kind == "npy" else {}
     events, _ = found(written(kind, p=polarities(*code)), **options)
     assert "it must be 0/1, -1/+1, 0/255, 1/2" in str(events)
 
 
-def test_a_code_that_shows_late_does_not_change_earlier_events() -> None:
+def test_a_code_that_shows_late_does_not_change_earlier_events():
     p = np.ones(40_000, int)
     p[12_345] = 2
     zeros = np.zeros(40_000, int)
@@ -211,7 +209,7 @@ def test_a_code_that_shows_late_does_not_change_earlier_events() -> None:
 
 
 @pytest.mark.parametrize("name", ["on", "is_on", "polarity_on"])
-def test_on_is_a_name_of_polarity(name: str) -> None:
+def test_on_is_a_name_of_polarity(name):
     records = np.zeros(COUNT, [("t", "<u8"), ("x", "<u2"), ("y", "<u2"), (name, "?")])
     for field, column in zip(("t", "x", "y", name), (T, X, Y, P), strict=True):
         records[field] = column
@@ -232,9 +230,7 @@ ID_KINDS = (None, np.uint16, np.int64, np.float32)
 
 @pytest.mark.parametrize("kind", ["npz", "h5"])
 @pytest.mark.parametrize("kinds", pairs(ID_KINDS, ID_KINDS))
-def test_ids_count_only_together_and_in_their_own_types(
-    kind: str, kinds: tuple[type[np.number[Any]] | None, ...]
-) -> None:
+def test_ids_count_only_together_and_in_their_own_types(kind, kinds):
     given = dict(zip(ID_COLUMNS, kinds, strict=True))
     columns = {name: np.full(COUNT, 3, one) for name, one in given.items() if one}
     events, _ = found(written(kind, **columns))
@@ -245,20 +241,20 @@ def test_ids_count_only_together_and_in_their_own_types(
 
 
 @pytest.mark.parametrize("label", [7, "cat", [7], np.full(COUNT, 7), np.arange(3)])
-def test_a_label_of_the_sample_is_no_column(label: Any) -> None:
+def test_a_label_of_the_sample_is_no_column(label):
     events, _ = found(written("npz", label=np.array(label)))
     assert is_true(events)
     assert isinstance(events, EventStream)
     assert events.label is None
 
 
-def test_arrays_of_python_objects_are_read_by_nobody() -> None:
+def test_arrays_of_python_objects_are_read_by_nobody():
     assert is_true(found(written("npz", meta=np.array({"a": 1})))[0])
     events, _ = found(written("npz", x=X.astype(object)))
     assert "x is dtype('O')" in str(events)
 
 
-def test_coordinates_beyond_a_sensor_given_wrongly_are_not_divided() -> None:
+def test_coordinates_beyond_a_sensor_given_wrongly_are_not_divided():
     for changed in ({"x": X + 1}, {"x": Y, "y": X}):
         assert " runs from " in str(found(written("npz", **changed))[0])
     assert "x runs from" in str(load_error(written("npz"), size=SensorSize(180, 240)))
@@ -272,7 +268,7 @@ def load_error(path: Path, **options: Any) -> FileFormatError:
 
 @pytest.mark.parametrize("holder", ["array", "attribute", "npz"])
 @pytest.mark.parametrize(("unit", "offset"), [(1, 5_000_000), (1e6, 5), (1e6, 5.0)])
-def test_an_offset_is_in_the_unit_of_the_times(holder: str, unit: float, offset: float) -> None:
+def test_an_offset_is_in_the_unit_of_the_times(holder, unit, offset):
     times = T if unit == 1 else T / unit
     if holder == "npz":
         path = written("npz", t=times, t_offset=np.array(offset))
@@ -284,14 +280,14 @@ def test_an_offset_is_in_the_unit_of_the_times(holder: str, unit: float, offset:
 
 
 @pytest.mark.parametrize("kind", ["npz", "h5"])
-def test_a_column_that_is_one_row_is_read(kind: str) -> None:
+def test_a_column_that_is_one_row_is_read(kind):
     assert is_true(found(written(kind, t=T[None], x=X[None], y=Y[None], p=P[None]))[0])
 
 
 @pytest.mark.parametrize("mark", [",", ";", " "])
 @pytest.mark.parametrize("end", ["", ",", ";"])
 @pytest.mark.parametrize("comment", ["", "# ", "% "])
-def test_a_line_of_names_decides_in_a_comment_too(mark: str, end: str, comment: str) -> None:
+def test_a_line_of_names_decides_in_a_comment_too(mark, end, comment):
     if end not in ("", mark):
         return
     rows = [comment + mark.join("pytx") + end]
@@ -301,13 +297,13 @@ def test_a_line_of_names_decides_in_a_comment_too(mark: str, end: str, comment: 
 
 
 @pytest.mark.parametrize("unit", ["us", "ms"])
-def test_six_decimals_of_other_units_are_no_seconds(unit: str) -> None:
+def test_six_decimals_of_other_units_are_no_seconds(unit):
     times = T * 3 / {"us": 1, "ms": 1000}[unit]
     np.savetxt("e.txt", np.stack([times, X, Y, P], axis=1)[::8], fmt="%f")
     assert f"give time_unit (--time-unit {unit})" in str(found(Path("e.txt"))[0])
 
 
-def test_arrays_behind_one_another_are_refused() -> None:
+def test_arrays_behind_one_another_are_refused():
     with Path("e.npy").open("wb") as file:
         for rows in np.split(np.stack([T, X, Y, P], axis=1), 2):
             np.save(file, rows)
@@ -315,7 +311,7 @@ def test_arrays_behind_one_another_are_refused() -> None:
 
 
 @pytest.mark.parametrize("kind", ["npz", "records.npy", "h5"])
-def test_space_that_nobody_wrote_is_left_out_by_repair(kind: str) -> None:
+def test_space_that_nobody_wrote_is_left_out_by_repair(kind):
     path = written(
         kind, **{n: np.pad(c, (0, 300)) for n, c in zip("txyp", (T, X, Y, P), strict=True)}
     )
@@ -332,12 +328,12 @@ TEXTS = [
 
 
 @pytest.mark.parametrize(("name", "text", "message"), TEXTS)
-def test_texts_that_mean_something_else_are_named(name: str, text: str, message: str) -> None:
+def test_texts_that_mean_something_else_are_named(name, text, message):
     Path("e.csv").write_bytes(text.encode("utf-16" if name == "UTF-16" else "utf-8"))
     assert message in str(found(Path("e.csv"))[0])
 
 
-def test_quotes_an_index_and_names_of_any_order_are_read() -> None:
+def test_quotes_an_index_and_names_of_any_order_are_read():
     rows = list(zip(range(COUNT), P, T, Y, X, strict=True))
     Path("e.csv").write_text(
         '"","p","t","y","x"\n' + "".join('"{}","{}","{}","{}","{}"\n'.format(*row) for row in rows)
@@ -347,7 +343,7 @@ def test_quotes_an_index_and_names_of_any_order_are_read() -> None:
 
 @pytest.mark.parametrize("make", [h5py.SoftLink, None], ids=["soft", "hard"])
 @pytest.mark.parametrize("part", ["columns", "group", "rows"])
-def test_links_within_a_file_are_names_of_its_arrays(part: str, make: Any) -> None:
+def test_links_within_a_file_are_names_of_its_arrays(part, make):
     with h5py.File("e.h5", "w") as file:
         link = make or file.__getitem__
         if part == "rows":
@@ -368,7 +364,7 @@ def test_links_within_a_file_are_names_of_its_arrays(part: str, make: Any) -> No
 @pytest.mark.parametrize("holder", ["/", "/events", "/events/t"])
 @pytest.mark.parametrize("name", ["unit", "units", "time_unit", "t_units", "Timestamp unit"])
 @pytest.mark.parametrize("unit", ["ns", "Nanoseconds", b"ns"])
-def test_an_attribute_states_the_unit(holder: str, name: str, unit: str | bytes) -> None:
+def test_an_attribute_states_the_unit(holder, name, unit):
     with h5py.File(written("h5", t=T * 1000), "a") as file:
         file[holder].attrs[name] = unit
     assert load("e.h5", size=SIZE).t.tolist() == T.tolist()
@@ -376,7 +372,7 @@ def test_an_attribute_states_the_unit(holder: str, name: str, unit: str | bytes)
 
 @pytest.mark.parametrize("order", ["tyxp", "ptxy", "xypt"])
 @pytest.mark.parametrize("form", ["list", "bytes", "text", "commas", "pandas"])
-def test_an_attribute_states_the_order_of_columns(order: str, form: str) -> None:
+def test_an_attribute_states_the_order_of_columns(order, form):
     values = {"t": T, "x": X, "y": Y, "p": P}
     with h5py.File("e.h5", "w") as file:
         name = "block0_values" if form == "pandas" else "events"
@@ -390,13 +386,13 @@ def test_an_attribute_states_the_order_of_columns(order: str, form: str) -> None
 
 
 @pytest.mark.parametrize("name", ["topic", "group", "unit"])
-def test_options_that_do_not_exist_are_named(name: str) -> None:
+def test_options_that_do_not_exist_are_named(name):
     with pytest.raises(TexventError, match=f"without an option '{name}'; "):
         load(written("h5"), **{name: "events"})
 
 
 @pytest.mark.parametrize("column", SPELLINGS)
-def test_of_two_names_of_a_column_the_shorter_one_counts(tmp_path: Path, column: str) -> None:
+def test_of_two_names_of_a_column_the_shorter_one_counts(tmp_path, column):
     others = {name: np.array([0, 1]) for name in SPELLINGS if name != column}
     for first, second in itertools.permutations(SPELLINGS[column], 2):
         if len(first) != len(second):

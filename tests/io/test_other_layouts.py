@@ -1,7 +1,5 @@
 """Arrays of other programs and data sets, found by their names: HDF5, npz, npy."""
 
-from __future__ import annotations
-
 from decimal import Decimal
 from pathlib import Path
 from typing import Any
@@ -48,21 +46,21 @@ def write_h5(path: Path, arrays: dict[str, Any], **attributes: Any) -> Path:
         {"cd/x": X[:, None], "cd/y": Y[:, None], "cd/t [ms]": T / 1e3, "cd/p": P},
     ],
 )
-def test_hdf5_of_data_sets_and_tools_is_read(tmp_path: Path, arrays: dict[str, Any]) -> None:
+def test_hdf5_of_data_sets_and_tools_is_read(tmp_path, arrays):
     path = write_h5(tmp_path / "e.h5", arrays)
     assert load(path, size=SIZE).equals(EVENTS)
     first = open_events(path, size=SIZE).between(75, 100).collect()
     assert first.t.tolist() == [80]
 
 
-def test_sizes_of_event_utils_and_m3ed_are_read(tmp_path: Path) -> None:
+def test_sizes_of_event_utils_and_m3ed_are_read(tmp_path):
     arrays = {"events/x": X, "events/y": Y, "events/t": T, "events/p": P}
     assert load(write_h5(tmp_path / "a.h5", arrays, sensor_resolution=[7, 9])).equals(EVENTS)
     arrays["events/calib/resolution"] = [9, 7]
     assert load(write_h5(tmp_path / "b.h5", arrays)).equals(EVENTS)
 
 
-def test_one_of_several_groups_is_chosen(tmp_path: Path) -> None:
+def test_one_of_several_groups_is_chosen(tmp_path):
     left = {
         f"prophesee/left/{name}": values for name, values in zip("xytp", (X, Y, T, P), strict=True)
     }
@@ -76,7 +74,7 @@ def test_one_of_several_groups_is_chosen(tmp_path: Path) -> None:
         assert len(load(path, size=SIZE, stream=stream)) == count
 
 
-def test_an_unknown_file_says_what_it_holds_and_takes_names(tmp_path: Path) -> None:
+def test_an_unknown_file_says_what_it_holds_and_takes_names(tmp_path):
     arrays = {"a/u": X, "a/v": Y, "a/when": T, "a/sign": P, "b": np.zeros(5)}
     path = write_h5(tmp_path / "e.h5", arrays)
     with pytest.raises(UnknownLayoutError, match=r"knows \(a/sign int64 \[3\], a/u int64 \[3\]"):
@@ -89,20 +87,20 @@ def test_an_unknown_file_says_what_it_holds_and_takes_names(tmp_path: Path) -> N
 
 
 @pytest.mark.parametrize("name", ["e.npz", "e.npy"])
-def test_arrays_of_numpy_are_read(tmp_path: Path, name: str) -> None:
+def test_arrays_of_numpy_are_read(tmp_path, name):
     path = tmp_path / name
     for array in (RECORDS, FOUR, FOUR[:, [2, 0, 1, 3]]):
         np.savez(path, anything=array) if name == "e.npz" else np.save(path, array)
         assert load(path, size=SIZE).equals(EVENTS)
 
 
-def test_pairs_of_coordinates_are_read(tmp_path: Path) -> None:
+def test_pairs_of_coordinates_are_read(tmp_path):
     path = tmp_path / "e.npz"
     np.savez(path, xy=np.stack([X, Y], axis=1), t=T / 1e6, p=P, meta=np.zeros(2))
     assert load(path, size=SIZE).equals(EVENTS)
 
 
-def test_coordinates_in_steps_of_a_pixel_are_divided_with_a_warning(tmp_path: Path) -> None:
+def test_coordinates_in_steps_of_a_pixel_are_divided_with_a_warning(tmp_path):
     path = tmp_path / "e.npz"
     np.savez(path, x=X * 32 + 31, y=Y * 32, timestamp=T, polarity=P)
     with pytest.warns(TexventWarning, match="read as 1/32 of a pixel, as BS-ERGB"):
@@ -112,7 +110,7 @@ def test_coordinates_in_steps_of_a_pixel_are_divided_with_a_warning(tmp_path: Pa
         load(path, size=SIZE)
 
 
-def test_a_stated_unit_is_believed_and_a_guessed_one_is_checked(tmp_path: Path) -> None:
+def test_a_stated_unit_is_believed_and_a_guessed_one_is_checked(tmp_path):
     t = np.arange(2000) * 1_000_000
     zeros = np.zeros(2000, int)
     path = tmp_path / "e.npz"
@@ -135,14 +133,14 @@ def test_a_stated_unit_is_believed_and_a_guessed_one_is_checked(tmp_path: Path) 
         ({"columns": "t,x,y,p", "format": "evt3"}, "is evt3, which states its columns; leave"),
     ],
 )
-def test_wrong_options_are_one_line(tmp_path: Path, options: dict[str, str], message: str) -> None:
+def test_wrong_options_are_one_line(tmp_path, options, message):
     path = tmp_path / "e.raw"
     path.write_bytes(b"% evt 3.0\n% geometry 9x7\n% end\n")
     with pytest.raises(ConfigError, match=message):
         load(path, **options)
 
 
-def test_any_other_text_is_rows_of_events(tmp_path: Path) -> None:
+def test_any_other_text_is_rows_of_events(tmp_path):
     text = tmp_path / "e.log"
     text.write_text("0.00007 3 5 1\n")
     assert len(load(text, size=SIZE)) == 1
@@ -168,9 +166,7 @@ def test_any_other_text_is_rows_of_events(tmp_path: Path) -> None:
         ({}, {".origin": "Zürich", ".y_up": False, "t.scale_factor": 1}),
     ],
 )
-def test_attributes_that_scale_or_turn_columns_are_obeyed(
-    tmp_path: Path, stored: dict[str, Any], attributes: dict[str, Any]
-) -> None:
+def test_attributes_that_scale_or_turn_columns_are_obeyed(tmp_path, stored, attributes):
     columns = {"x": X, "y": Y, "t": T, "p": P, **stored}
     arrays = {f"events/{name}": one for name, one in columns.items()}
     path = write_h5(tmp_path / "e.h5", arrays, width=9, height=7)
@@ -181,7 +177,7 @@ def test_attributes_that_scale_or_turn_columns_are_obeyed(
     assert load(path).equals(EVENTS)
 
 
-def test_narrow_floats_are_read_without_a_word_of_numpy(tmp_path: Path) -> None:
+def test_narrow_floats_are_read_without_a_word_of_numpy(tmp_path):
     path = write_h5(tmp_path / "e.h5", {"x": np.half(X), "y": np.half(Y), "t_ms": T, "p": P})
     assert load(path, size=SIZE).x.tolist() == X.tolist()
     path = write_h5(tmp_path / "f.h5", {"x": X, "y": Y, "t_us": np.half([1, 2, 900]), "p": P})
@@ -189,7 +185,7 @@ def test_narrow_floats_are_read_without_a_word_of_numpy(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("values", [[[1], [2]], [Decimal("1.5")], [None], [1.5]])
-def test_columns_of_tables_that_are_no_whole_numbers_are_refused(values: list[Any]) -> None:
+def test_columns_of_tables_that_are_no_whole_numbers_are_refused(values):
     column = np.empty(len(values), object)
     column[:] = values
     with pytest.raises(FileFormatError, match="not whole numbers"):
@@ -197,7 +193,7 @@ def test_columns_of_tables_that_are_no_whole_numbers_are_refused(values: list[An
 
 
 @pytest.mark.parametrize("value", ["a", [1, 2], np.nan])
-def test_attributes_that_cannot_be_obeyed_are_named(tmp_path: Path, value: Any) -> None:
+def test_attributes_that_cannot_be_obeyed_are_named(tmp_path, value):
     path = write_h5(tmp_path / "e.h5", {"x": X, "y": Y, "t": T, "p": P, "records": RECORDS})
     for name, said in (("t", "scale_factor of /t is"), ("records", "several columns")):
         with h5py.File(path, "r+") as file:

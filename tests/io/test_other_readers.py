@@ -4,10 +4,7 @@
 installed the test is reported as skipped; CI installs them.
 """
 
-from __future__ import annotations
-
 import zipfile
-from pathlib import Path
 
 import h5py
 import numpy as np
@@ -27,7 +24,7 @@ def events() -> EventStream:
     return recording(SIZE)
 
 
-def test_aedat_reads_aedat4(tmp_path: Path, events: EventStream) -> None:
+def test_aedat_reads_aedat4(tmp_path, events):
     aedat = pytest.importorskip("aedat", reason="the reader `aedat` is not installed")
     path = save(tmp_path / "e.aedat4", events)
     decoder = aedat.Decoder(str(path))
@@ -36,7 +33,7 @@ def test_aedat_reads_aedat4(tmp_path: Path, events: EventStream) -> None:
     assert_same(events, theirs["x"], theirs["y"], theirs["t"], theirs["on"])
 
 
-def test_dv_processing_reads_aedat4_and_seeks_in_it(tmp_path: Path, events: EventStream) -> None:
+def test_dv_processing_reads_aedat4_and_seeks_in_it(tmp_path, events):
     dv = pytest.importorskip("dv_processing", reason="the reader dv-processing is not installed")
     path = save(tmp_path / "e.aedat4", events)
     recording = dv.io.MonoCameraRecording(str(path))
@@ -51,7 +48,7 @@ def test_dv_processing_reads_aedat4_and_seeks_in_it(tmp_path: Path, events: Even
     assert window.size() == len(events.between(35_000, 62_000))
 
 
-def test_dv_processing_takes_a_recording_without_events(tmp_path: Path) -> None:
+def test_dv_processing_takes_a_recording_without_events(tmp_path):
     dv = pytest.importorskip("dv_processing", reason="the reader dv-processing is not installed")
     path = save(tmp_path / "e.aedat4", EventStream.empty(SIZE))
     recording = dv.io.MonoCameraRecording(str(path))
@@ -59,7 +56,7 @@ def test_dv_processing_takes_a_recording_without_events(tmp_path: Path) -> None:
     assert recording.getNextEventBatch() is None
 
 
-def test_rosbags_reads_every_field_of_a_bag(tmp_path: Path, events: EventStream) -> None:
+def test_rosbags_reads_every_field_of_a_bag(tmp_path, events):
     rosbag1 = pytest.importorskip("rosbags.rosbag1", reason="rosbags is not installed")
     typesys = pytest.importorskip("rosbags.typesys")
     few = events[:300]
@@ -83,7 +80,7 @@ def test_rosbags_reads_every_field_of_a_bag(tmp_path: Path, events: EventStream)
 
 
 @pytest.mark.parametrize(("file", "module"), [("e.bag", "rosbag1"), ("e.mcap", "rosbag2")])
-def test_a_bag_begins_with_its_first_event(tmp_path: Path, file: str, module: str) -> None:
+def test_a_bag_begins_with_its_first_event(tmp_path, file, module):
     bags = pytest.importorskip(f"rosbags.{module}", reason="rosbags is not installed")
     start = 1_000_000_000_000
     path = save(tmp_path / file, random_events(50, SIZE, start_us=start))
@@ -92,9 +89,7 @@ def test_a_bag_begins_with_its_first_event(tmp_path: Path, file: str, module: st
         assert start * 1000 <= bag.start_time < (start + 50_000) * 1000
 
 
-def test_rosbags_reads_an_mcap_file_and_its_words_are_evt3(
-    tmp_path: Path, events: EventStream
-) -> None:
+def test_rosbags_reads_an_mcap_file_and_its_words_are_evt3(tmp_path, events):
     rosbag2 = pytest.importorskip("rosbags.rosbag2", reason="rosbags is not installed")
     typesys = pytest.importorskip("rosbags.typesys")
     path = save(tmp_path / "e.mcap", events)
@@ -118,7 +113,7 @@ def test_rosbags_reads_an_mcap_file_and_its_words_are_evt3(
     assert raw.endswith(b"% end\n" + words)
 
 
-def test_plain_h5py_slices_dsec_as_its_own_loader_does(tmp_path: Path) -> None:
+def test_plain_h5py_slices_dsec_as_its_own_loader_does(tmp_path):
     start = 58_122_045_678
     events = random_events(20_000, SensorSize(640, 480), span_us=80_000, start_us=start)
     path = save(tmp_path / "events.h5", events, format="dsec")
@@ -136,9 +131,7 @@ def test_plain_h5py_slices_dsec_as_its_own_loader_does(tmp_path: Path) -> None:
         assert_same(events, x, y, t + offset, p)
 
 
-def test_plain_numpy_reads_n_imagenet_as_its_loader_does(
-    tmp_path: Path, events: EventStream
-) -> None:
+def test_plain_numpy_reads_n_imagenet_as_its_loader_does(tmp_path, events):
     path = save(tmp_path / "e.npz", events, format="n-imagenet")
     with np.load(path) as archive:
         data = archive["event_data"]
@@ -146,7 +139,7 @@ def test_plain_numpy_reads_n_imagenet_as_its_loader_does(
     assert_same(events, *rows.T)
 
 
-def test_plain_zipfile_reads_e2vid(tmp_path: Path, events: EventStream) -> None:
+def test_plain_zipfile_reads_e2vid(tmp_path, events):
     path = save(tmp_path / "e.zip", events)
     with zipfile.ZipFile(path) as archive:
         assert archive.namelist() == ["events.txt"]

@@ -1,7 +1,5 @@
 """Masks of pixels: read, and refused where they are something else."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import cv2
@@ -28,7 +26,7 @@ def write_mask(path: Path, mask: np.ndarray) -> None:
 
 
 @pytest.mark.parametrize("name", ["hot.npy", "hot.png", "hot.txt", "hot.PNG", "hot.NPY"])
-def test_a_mask_is_read(tmp_path: Path, name: str) -> None:
+def test_a_mask_is_read(tmp_path, name):
     path = tmp_path / name
     write_mask(path, MASK)
     found = read_pixel_mask(path, SIZE)
@@ -36,7 +34,7 @@ def test_a_mask_is_read(tmp_path: Path, name: str) -> None:
     np.testing.assert_array_equal(found, MASK)
 
 
-def test_a_mask_written_by_hand(tmp_path: Path) -> None:
+def test_a_mask_written_by_hand(tmp_path):
     path = tmp_path / "hot.txt"
     path.write_text("# of my camera\n4 1\n\n0 2  # the corner\n")
     np.testing.assert_array_equal(read_pixel_mask(path, SIZE), MASK)
@@ -49,7 +47,7 @@ def test_a_mask_written_by_hand(tmp_path: Path) -> None:
             read_pixel_mask(path, SIZE)
 
 
-def test_what_is_no_mask_is_refused(tmp_path: Path) -> None:
+def test_what_is_no_mask_is_refused(tmp_path):
     np.save(tmp_path / "other.npy", MASK.T)
     with pytest.raises(InputError, match=r"mask of shape \(5, 3\); for a sensor of 5x3"):
         read_pixel_mask(tmp_path / "other.npy", SIZE)
@@ -76,9 +74,7 @@ def test_what_is_no_mask_is_refused(tmp_path: Path) -> None:
     ],
 )
 @pytest.mark.parametrize("ending", [".npy", ".png"])
-def test_what_is_perhaps_no_mask_is_warned_of(
-    tmp_path: Path, array: np.ndarray, message: str, ending: str
-) -> None:
+def test_what_is_perhaps_no_mask_is_warned_of(tmp_path, array, message, ending):
     path = tmp_path / f"mask{ending}"
     if ending == ".png":
         cv2.imwrite(str(path), array.astype(np.uint8))

@@ -1,7 +1,5 @@
 """No output replaces an input; `tests/cli/test_nothing_lost.py` spells it in other ways."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Times of every type and unit, in µs."""
 
-from __future__ import annotations
-
 import math
 from fractions import Fraction
 from pathlib import Path

@@ -3,8 +3,6 @@
 Run with `pytest -m network`; the archives are fetched into the data folder, once.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -22,9 +20,7 @@ recordings = pytest.mark.parametrize(("name", "file", "size", "count", "on"), RE
 
 
 @recordings
-def test_aedat_reads_the_recording_as_we_do(
-    name: str, file: str, size: tuple[int, int], count: int, on: int
-) -> None:
+def test_aedat_reads_the_recording_as_we_do(name, file, size, count, on):
     aedat = pytest.importorskip("aedat", reason="the reader `aedat` is not installed")
     path = pull(name) / file if file else pull(name)
     ours = load(path)

@@ -1,7 +1,5 @@
 """Files just outside of a format are refused by name and number, those just inside are read."""
 
-from __future__ import annotations
-
 import functools
 import struct
 import zipfile
@@ -19,6 +17,7 @@ from texvent.io.aedat import aedat4_tables
 from texvent.io.aedat.aedat4_container import LZ4_CODE, MAGIC, PACKET_HEAD, pack_lz4
 from texvent.io.files import load
 from texvent.io.metadata import MAX_HEADER_BYTES
+from texvent.io.ros import bag_bounds
 from texvent.io.ros.messages import EVENT_ARRAY, EVENT_PACKET
 from texvent.sensor import SensorSize
 
@@ -101,7 +100,7 @@ def ros2(path: Path, change: Bytes = bytes, facts: Bytes = bytes, stored: Bytes 
         file.write_bytes((facts if file.suffix == ".yaml" else stored)(file.read_bytes()))
 
 
-MOST = MAX_HEADER_BYTES
+MOST, MOST_FACTS = MAX_HEADER_BYTES, 2**16
 COUNT = aedat4_tables.EVENTS_START - 4
 PAYLOAD = message(EVENT_PACKET, 2).index(MONO) - 4
 ROWS: dict[str, tuple[Callable[..., Options | None], Options, Options, str]] = {
@@ -151,8 +150,8 @@ ROWS: dict[str, tuple[Callable[..., Options | None], Options, Options, str]] = {
         "a message states 15 bytes of events; it is damaged"),
     "f": (ros2, {"change": put(0, "H", 0)}, {}, "a message is not little-endian CDR, which"),
     "g": (ros2, {"facts": lambda _: b"[]"}, {}, r"holds no facts of a bag \("),
-    "h": (ros2, {"facts": lambda data: data.ljust(MOST + 1, b"#")},
-        {"facts": lambda data: data.ljust(MOST, b"#")}, f"is longer than {MOST} bytes; it is dam"),
+    "h": (ros2, {"facts": lambda data: data.ljust(MOST_FACTS + 1, b"#")},
+        {"facts": lambda data: data.ljust(MOST_FACTS, b"#")}, f"is longer than {MOST_FACTS} byte"),
     "i": (ros2, {"stored": cut(2048)}, {}, r"is damaged or not a bag \("),
     "a.bag": (ros1, {"change": cut(-1)}, {}, "a message states 3 events in 38 bytes"),
     "b.bag": (ros1, {"change": lambda data: data + bytes(4)},
@@ -163,7 +162,8 @@ ROWS: dict[str, tuple[Callable[..., Options | None], Options, Options, str]] = {
 
 @pytest.mark.filterwarnings("ignore:.*(have no unit|has no size)")
 @pytest.mark.parametrize("name", ROWS)
-def test_a_file_just_outside_is_refused_and_one_just_inside_read(tmp_path: Path, name: str) -> None:
+def test_a_file_just_outside_is_refused_and_one_just_inside_read(tmp_path, name, monkeypatch):
+    monkeypatch.setattr(bag_bounds, "MAX_HEADER_BYTES", MOST_FACTS)
     write, wrong, right, told = ROWS[name]
     given = write(tmp_path / name, **wrong) or {}
     with pytest.raises(FileFormatError, match=told) as caught:

@@ -1,7 +1,5 @@
 """Damage of every kind is refused, used up to it, or repaired and counted."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -34,9 +32,7 @@ def repaired(parts: Iterator[Columns]) -> tuple[list[int], dict[str, int | str]]
     return [t for part in found for t in part], counts.facts()
 
 
-def test_times_that_step_back_are_sorted_among_those_held_back(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_times_that_step_back_are_sorted_among_those_held_back(monkeypatch):
     assert repaired(blocks([5, 3, 9], [4, 10])) == ([3, 4, 5, 9, 10], {"out_of_order": 2})
     for name, value in {"HELD_EVENTS": 2, "BATCH_EVENTS": 5, "LOOK_EVENTS": 1}.items():
         monkeypatch.setattr(repair, name, value)
@@ -64,7 +60,7 @@ def recording(kind: str, rng: np.random.Generator) -> NDArray[np.int64]:
 
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("kind", ["steady", "sparse", "bursts", "minutes"])
-def test_sound_recordings_and_pauses_are_not_repaired(kind: str, seed: int) -> None:
+def test_sound_recordings_and_pauses_are_not_repaired(kind, seed):
     rng = np.random.default_rng(seed)
     times = recording(kind, rng)
     assert repaired(cut(times, rng)) == (times.tolist(), {})
@@ -74,9 +70,7 @@ def test_sound_recordings_and_pauses_are_not_repaired(kind: str, seed: int) -> N
 @pytest.mark.parametrize("length", [1, 2, 50])
 @pytest.mark.parametrize("place", [0, 1, 700, 1499, 1500, -1])
 @pytest.mark.parametrize("stamp", ["up", "down", "wild", "zero", "negative", "far"])
-def test_a_few_wrong_stamps_are_dropped_and_counted(
-    stamp: str, place: int, length: int, seed: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_few_wrong_stamps_are_dropped_and_counted(stamp, place, length, seed, monkeypatch):
     monkeypatch.setattr(repair, "BATCH_EVENTS", 1500)
     monkeypatch.setattr(repair, "LOOK_EVENTS", 400)
     rng = np.random.default_rng(seed)
@@ -103,9 +97,7 @@ def test_a_few_wrong_stamps_are_dropped_and_counted(
     [[100], [130, 230], [200, 1600], [1499], [1500], [500, 2990], [2880, 2960], [500, 590, 2997]],
 )
 @pytest.mark.parametrize("first_us", [0, 1_700_000_000_000_000])
-def test_a_clock_that_was_reset_goes_on(
-    first_us: int, at: list[int], seed: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_clock_that_was_reset_goes_on(first_us, at, seed, monkeypatch):
     monkeypatch.setattr(repair, "BATCH_EVENTS", 1500)
     monkeypatch.setattr(repair, "LOOK_EVENTS", 400)
     rng = np.random.default_rng(seed)
@@ -124,19 +116,19 @@ def test_a_clock_that_was_reset_goes_on(
     ("first_us", "range_us"),
     [*((0, one) for one in TURNS_US), (-(1 << 31), 1 << 32), (-2_147_483, 4_294_967)],
 )
-def test_a_clock_that_turns_over_counts_on(first_us: int, range_us: int) -> None:
+def test_a_clock_that_turns_over_counts_on(first_us, range_us):
     times = np.arange(3000) * 1000 + first_us + range_us - 1_500_000
     stored = (times - first_us) % range_us + first_us
     assert repaired(blocks(stored.tolist())) == (times.tolist(), {"clock_turns": 1})
 
 
-def test_packets_that_come_late_are_sorted() -> None:
+def test_packets_that_come_late_are_sorted():
     times = np.arange(5000) * 200
     stored = np.concatenate([times[:1000], times[2000:3000], times[1000:2000], times[3000:]])
     assert repaired(blocks(stored.tolist())) == (times.tolist(), {"out_of_order": 1000})
 
 
-def test_events_outside_the_sensor_are_dropped() -> None:
+def test_events_outside_the_sensor_are_dropped():
     parts = [*blocks([1, 2], x=7), *blocks([3]), *blocks([4], x=-1)]
     assert repaired(iter(parts)) == ([3], {"outside_sensor": 3})
 
@@ -156,9 +148,7 @@ def damaged(tmp_path: Path, kind: str) -> tuple[Path, EventStream]:
 
 
 @pytest.mark.parametrize(("kind", "count"), [("outside", 2999), ("back", 3000), ("cut", 2000)])
-def test_a_damaged_file_is_refused_used_in_part_or_repaired(
-    tmp_path: Path, kind: str, count: int
-) -> None:
+def test_a_damaged_file_is_refused_used_in_part_or_repaired(tmp_path, kind, count):
     path, events = damaged(tmp_path, kind)
     with pytest.raises(FileFormatError, match=r"repair=True \(--repair\) reads what is sound"):
         load(path)
@@ -175,7 +165,7 @@ def test_a_damaged_file_is_refused_used_in_part_or_repaired(
 
 
 @pytest.mark.parametrize("start", [100, 40_000])
-def test_zeros_in_a_text_are_dropped_and_counted(tmp_path: Path, start: int) -> None:
+def test_zeros_in_a_text_are_dropped_and_counted(tmp_path, start):
     events = random_events(3000, SensorSize(64, 48), span_us=90_000)
     path = save(tmp_path / "e.txt", events)
     text = path.read_bytes()
@@ -189,7 +179,7 @@ def test_zeros_in_a_text_are_dropped_and_counted(tmp_path: Path, start: int) -> 
     assert found.t.tolist() == np.delete(events.t, slice(*lost)).tolist()
 
 
-def test_a_sound_file_is_not_changed_by_repair(tmp_path: Path) -> None:
+def test_a_sound_file_is_not_changed_by_repair(tmp_path):
     events = random_events(3000, SensorSize(64, 48))
     for name in ("e.raw", "e.h5", "e.aedat4"):
         found = load(save(tmp_path / name, events), repair=True)
@@ -198,7 +188,7 @@ def test_a_sound_file_is_not_changed_by_repair(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["e.raw", "e.aedat4", "e.dat"])
-def test_a_cut_file_is_read_up_to_its_end(tmp_path: Path, name: str) -> None:
+def test_a_cut_file_is_read_up_to_its_end(tmp_path, name):
     events = random_events(3000, SensorSize(64, 48), span_us=90_000)
     path = save(tmp_path / name, events)
     path.write_bytes(path.read_bytes()[:-501])
@@ -208,14 +198,14 @@ def test_a_cut_file_is_read_up_to_its_end(tmp_path: Path, name: str) -> None:
     assert found == events[: len(found)]
 
 
-def test_columns_are_sorted_where_asked_for() -> None:
+def test_columns_are_sorted_where_asked_for():
     events = EventStream.from_columns(
         [1, 2, 3], [0, 0, 0], [9, 5, 9], [1, 0, 0], size=SIZE, sort=True
     )
     assert (events.x.tolist(), events.t.tolist()) == ([2, 1, 3], [5, 9, 9])
 
 
-def test_rows_that_are_no_events_are_dropped_and_counted(tmp_path: Path) -> None:
+def test_rows_that_are_no_events_are_dropped_and_counted(tmp_path):
     path = tmp_path / "e.csv"
     path.write_text("t,x,y,p\n1,1,1,1\nnan,2,2,0\nt,x,y,p\n5,3,3,0\n9,4\n")
     with pytest.warns(TexventWarning, match="unreadable rows: 3"):
@@ -227,7 +217,7 @@ def test_rows_that_are_no_events_are_dropped_and_counted(tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize("rows", [3, 300])
-def test_a_short_text_is_repaired_and_its_error_says_so(tmp_path: Path, rows: int) -> None:
+def test_a_short_text_is_repaired_and_its_error_says_so(tmp_path, rows):
     path = tmp_path / "e.txt"
     path.write_text("".join(f"{at / 1000:.6f} 1 1 1\n" for at in range(rows)) + "0.3 1")
     with pytest.raises(FileFormatError, match="--repair"):

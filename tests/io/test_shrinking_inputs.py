@@ -1,11 +1,8 @@
 """A file that becomes shorter while it is read is refused: no bus error, no shorter recording."""
 
-from __future__ import annotations
-
 import os
 import struct
 from fractions import Fraction
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -23,7 +20,7 @@ from .read_only_formats import write_evreal
 SHORTER = "became shorter while it was read"
 
 
-def test_an_array_of_frames(tmp_path: Path) -> None:
+def test_an_array_of_frames(tmp_path):
     path = tmp_path / "frames.npy"
     np.save(path, np.zeros((20, 64, 64), np.uint8))
     frames = iter(open_frames(path, CaptureConfig(fps=Fraction(25))))
@@ -33,7 +30,7 @@ def test_an_array_of_frames(tmp_path: Path) -> None:
         list(frames)
 
 
-def test_the_events_of_an_evreal_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_events_of_an_evreal_folder(tmp_path, monkeypatch):
     monkeypatch.setattr(folders, "PACKET_EVENTS", 1000)
     path = write_evreal(tmp_path / "e", random_events(20_000, CASE_OF["evreal"].sensor))
     packets = iter(open_events(path))
@@ -43,7 +40,7 @@ def test_the_events_of_an_evreal_folder(tmp_path: Path, monkeypatch: pytest.Monk
         list(packets)
 
 
-def test_an_aedat4_file_of_many_packets(tmp_path: Path) -> None:
+def test_an_aedat4_file_of_many_packets(tmp_path):
     events = random_events(50_000, CASE_OF["aedat4"].sensor, span_us=5_000_000)
     path = save(tmp_path / "e.aedat4", events)
     packets = iter(open_events(path))
@@ -70,9 +67,7 @@ CONTENTS = {
 
 
 @pytest.mark.parametrize("name", CONTENTS)
-def test_every_format_of_records_and_rows(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
-) -> None:
+def test_every_format_of_records_and_rows(tmp_path, monkeypatch, name):
     for module in ("byte_blocks", "text.codecs"):
         monkeypatch.setattr(f"texvent.io.{module}.BLOCK_BYTES", 1 << 16)
     path = tmp_path / name
@@ -89,7 +84,7 @@ def test_every_format_of_records_and_rows(
 
 @pytest.mark.parametrize("name", ["e.txt", "e.h5"])
 @pytest.mark.parametrize("change", ["shorter", "longer"])
-def test_a_change_of_length_is_named_as_the_cause(tmp_path: Path, name: str, change: str) -> None:
+def test_a_change_of_length_is_named_as_the_cause(tmp_path, name, change):
     path = save(tmp_path / name, random_events(90_000, CASE_OF["ecd"].sensor))
     events = open_events(path)
     if change == "shorter":
@@ -100,7 +95,7 @@ def test_a_change_of_length_is_named_as_the_cause(tmp_path: Path, name: str, cha
         list(events)
 
 
-def test_what_is_added_meanwhile_is_not_read(tmp_path: Path) -> None:
+def test_what_is_added_meanwhile_is_not_read(tmp_path):
     path = tmp_path / "e.dat"
     path.write_bytes(CONTENTS["e.dat"] + CONTENTS["e.dat"][-8 * COUNT :] * 9)
     packets = iter(open_events(path))
@@ -110,14 +105,14 @@ def test_what_is_added_meanwhile_is_not_read(tmp_path: Path) -> None:
     assert count + sum(map(len, packets)) == 10 * COUNT
 
 
-def test_an_array_stored_by_columns_gives_its_rows(tmp_path: Path) -> None:
+def test_an_array_stored_by_columns_gives_its_rows(tmp_path):
     values = np.arange(24).reshape(4, 6)
     np.save(tmp_path / "a.npy", np.asfortranarray(values))
     assert (StoredArray(tmp_path / "a.npy").rows(1, 3) == values[1:3]).all()
 
 
 @pytest.mark.parametrize("name", ["e.dat", "evt2.raw", "aedat2.aedat", "e.es"])
-def test_a_part_of_zeros_is_no_events(tmp_path: Path, name: str) -> None:
+def test_a_part_of_zeros_is_no_events(tmp_path, name):
     data = CONTENTS[name]
     half = len(data) - COUNT // 2 * (5 if name == "e.es" else 8)
     # The last byte of its events is a zero here.
@@ -130,7 +125,7 @@ def test_a_part_of_zeros_is_no_events(tmp_path: Path, name: str) -> None:
         assert sum(map(len, open_events(path, repair=True))) == COUNT // 2 - (name == "e.es")
 
 
-def test_zeros_and_words_that_are_no_events_are_said(tmp_path: Path) -> None:
+def test_zeros_and_words_that_are_no_events_are_said(tmp_path):
     path = tmp_path / "e.raw"
     data = CONTENTS["evt3.raw"]
     for content, message in (

@@ -1,7 +1,5 @@
 """Triggers and IMU samples beside events: by hand, by a slow decoder, from other programs."""
 
-from __future__ import annotations
-
 import json
 import struct
 from collections.abc import Callable
@@ -26,7 +24,7 @@ def rows(blocks: list[bytes], coding: TriggerCoding) -> list[tuple[int, int, int
     return list(zip(*(column.tolist() for column in columns), strict=True))
 
 
-def test_triggers_by_hand() -> None:
+def test_triggers_by_hand():
     evt2 = struct.pack(
         "<4I", 10 << 28 | 5 << 22, 8 << 28 | 3, 1 << 28, 10 << 28 | 7 << 22 | 6 << 8 | 1
     )
@@ -62,9 +60,7 @@ def slow_evt3(words: list[int]) -> list[tuple[int, int, int]]:
     ),
     cut=st.integers(0, 20),
 )
-def test_triggers_of_any_words_in_any_blocks_are_those_of_the_slow_decoder(
-    words: list[int], cut: int
-) -> None:
+def test_triggers_of_any_words_in_any_blocks_are_those_of_the_slow_decoder(words, cut):
     data = np.array(words, "<u2").tobytes()
     blocks = [data[: 2 * cut], data[2 * cut :]]
     assert rows(blocks, EVT3) == slow_evt3(words)
@@ -111,9 +107,7 @@ HOLDERS: dict[str, tuple[Callable[[Path], None], str]] = {
 
 
 @pytest.mark.parametrize("name", HOLDERS)
-def test_convert_says_which_data_beside_the_events_it_leaves_out(
-    tmp_path: Path, name: str, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_convert_says_which_data_beside_the_events_it_leaves_out(tmp_path, name, capfd):
     make, held = HOLDERS[name]
     make(tmp_path / name)
     make(merged := tmp_path / f"merged {name}")
@@ -137,8 +131,8 @@ def test_convert_says_which_data_beside_the_events_it_leaves_out(
     ("format", "held"), [(None, True), ("aedat2", True), ("cifar10-dvs", False)]
 )
 def test_data_beside_the_events_are_those_of_the_format_that_is_stated(
-    tmp_path: Path, format: str | None, held: bool, capfd: pytest.CaptureFixture[str]
-) -> None:
+    tmp_path, format, held, capfd
+):
     path = tmp_path / "e.aedat"  # a signal of a DAVIS, or an event of a DVS128
     path.write_bytes(b"#!AER-DAT2.0\r\n" + struct.pack(">II", 1 << 10, 6))
     facts = [str(path), *(() if format == "cifar10-dvs" else ("--sensor", "346x260"))]
@@ -153,7 +147,7 @@ def test_data_beside_the_events_are_those_of_the_format_that_is_stated(
     assert (out.exists() and out.read_text().split() == ["t_us", "6"]) == held
 
 
-def test_triggers_and_imu_of_dv_processing_are_read(tmp_path: Path) -> None:
+def test_triggers_and_imu_of_dv_processing_are_read(tmp_path):
     dv = pytest.importorskip("dv_processing", reason="dv-processing is not installed")
     path = tmp_path / "e.aedat4"
     config = dv.io.MonoCameraWriter.Config("DAVIS346_1")
@@ -178,7 +172,7 @@ def test_triggers_and_imu_of_dv_processing_are_read(tmp_path: Path) -> None:
     }
 
 
-def test_signals_and_imu_samples_of_older_files_are_read(tmp_path: Path) -> None:
+def test_signals_and_imu_samples_of_older_files_are_read(tmp_path):
     path = tmp_path / "e.aedat"
     davis_with(path)
     side = codec_that_reads(path).side_data(path)

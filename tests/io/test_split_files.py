@@ -1,9 +1,6 @@
 """Recordings cut into files by frame times and by tables of labels."""
 
-from __future__ import annotations
-
 import itertools
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -39,9 +36,7 @@ PLACES = st.integers(0, 50)
     st.lists(st.integers(0, len(TIMES)), max_size=7).map(sorted),
 )
 @example([(10, 25), (25, 40), (0, 100), (90, 95), (11, 12)], [3, 3])
-def test_intervals_are_half_open_and_packets_may_be_cut_anywhere(
-    ends: list[tuple[int, int]], cuts: list[int]
-) -> None:
+def test_intervals_are_half_open_and_packets_may_be_cut_anywhere(ends, cuts):
     found = list(split(packets(*cuts), [Interval(*pair) for pair in ends]))
     assert sorted(number for number, _ in found) == [*range(len(ends))]
     for number, parts in found:
@@ -66,15 +61,13 @@ def test_intervals_are_half_open_and_packets_may_be_cut_anywhere(
         ("-1.5\n-0.25\n2\n", [(-1_500_000, -250_000, None), (-250_000, 2_000_000, None)]),
     ],
 )
-def test_times_and_tables_are_read(
-    tmp_path: Path, text: str, intervals: list[tuple[int, int, str | None]]
-) -> None:
+def test_times_and_tables_are_read(tmp_path, text, intervals):
     path = tmp_path / "t.txt"
     path.write_text(text)
     assert read_intervals(path) == [Interval(*one) for one in intervals]
 
 
-def test_what_is_no_table_of_times_is_refused(tmp_path: Path) -> None:
+def test_what_is_no_table_of_times_is_refused(tmp_path):
     path = tmp_path / "t.txt"
     for text in (
         "",
@@ -93,7 +86,7 @@ def test_what_is_no_table_of_times_is_refused(tmp_path: Path) -> None:
         read_intervals(tmp_path / "none.txt")
 
 
-def test_a_folder_has_one_file_per_frame_interval(tmp_path: Path) -> None:
+def test_a_folder_has_one_file_per_frame_interval(tmp_path):
     folder = tmp_path / "split"
     intervals = [Interval(10, 25), Interval(25, 40)]
     assert write_split(packets(3), intervals, folder, format="npz") == 5
@@ -108,7 +101,7 @@ def test_a_folder_has_one_file_per_frame_interval(tmp_path: Path) -> None:
     write_split(packets(), intervals, folder, overwrite=True)
 
 
-def test_labels_make_a_folder_each(tmp_path: Path) -> None:
+def test_labels_make_a_folder_each(tmp_path):
     folder = tmp_path / "split"
     write_split(
         packets(), [Interval(0, 11, "wave"), Interval(39, 50, "clap")], folder, format="hdf5"
@@ -124,7 +117,7 @@ def test_labels_make_a_folder_each(tmp_path: Path) -> None:
     ]
 
 
-def test_labels_become_folders_of_their_own(tmp_path: Path) -> None:
+def test_labels_become_folders_of_their_own(tmp_path):
     intervals = [Interval(10, 25, "right hand"), Interval(25, 40, "../x, y")]
     write_split(packets(3), intervals, tmp_path / "parts")
     found = sorted(str(one.relative_to(tmp_path)) for one in tmp_path.rglob("*.npz"))
@@ -136,7 +129,7 @@ def test_labels_become_folders_of_their_own(tmp_path: Path) -> None:
         read_intervals(path)
 
 
-def test_times_below_zero_are_written_as_they_are(tmp_path: Path) -> None:
+def test_times_below_zero_are_written_as_they_are(tmp_path):
     intervals = [Interval(-1_500_000, -250_000), Interval(-250_000, 2_000_000)]
     write_split(packets(3), intervals, tmp_path / "parts")
     written = (tmp_path / "parts/timestamps.txt").read_text()

@@ -1,7 +1,5 @@
 """Formats that find a time: any part is that of the whole, and what lies outside is not read."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -58,9 +56,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.mark.long
 @pytest.mark.parametrize("name", FORMATS)
 @given(data=st.data())
-def test_any_part_of_a_file_is_that_of_the_recording(
-    folder: Path, name: str, data: st.DataObject
-) -> None:
+def test_any_part_of_a_file_is_that_of_the_recording(folder, name, data):
     whole, opened = recording(COUNT), open_events(folder / FORMATS[name], format=name)
     assert isinstance(opened.packets, SeekablePackets)
     assert opened.time_range == whole.time_range
@@ -74,7 +70,7 @@ def test_any_part_of_a_file_is_that_of_the_recording(
 
 
 @pytest.mark.parametrize("unit", [1, 7, 64])
-def test_bisection_reads_few_events(unit: int) -> None:
+def test_bisection_reads_few_events(unit):
     times = np.sort(np.random.default_rng(1).integers(0, 5000, 1000))
     asked: list[int] = []
 
@@ -98,7 +94,7 @@ def write_times(path: Path, times: list[int]) -> Path:
 
 
 @pytest.mark.parametrize("is_first_least", [False, True])
-def test_bisection_of_a_file_out_of_order_is_refused(tmp_path: Path, is_first_least: bool) -> None:
+def test_bisection_of_a_file_out_of_order_is_refused(tmp_path, is_first_least):
     times = np.random.default_rng(3).integers(0, 400_000, 2000)
     times[[0, -1]] = (0, 400_000) if is_first_least else (400_000, 0)
     opened = open_events(write_times(tmp_path / "a.h5", times.tolist()))
@@ -111,9 +107,7 @@ def test_bisection_of_a_file_out_of_order_is_refused(tmp_path: Path, is_first_le
             _ = opened.time_range
 
 
-def test_times_that_decrease_inside_a_part_or_between_its_blocks_are_refused(
-    tmp_path: Path,
-) -> None:
+def test_times_that_decrease_inside_a_part_or_between_its_blocks_are_refused(tmp_path):
     for times, block in (([10, 20, 50, 40, 60, 70], 6), ([10, 20, 50, 40, 60, 70], 3)):
 
         @contextmanager
@@ -148,7 +142,7 @@ print(len(part), read() - before, peak() - memory)
 
 @pytest.mark.skipif(not Path("/proc/self/io").exists(), reason="bytes read are counted by Linux")
 @pytest.mark.parametrize("name", ["hdf5", "evreal"])
-def test_a_short_part_of_a_long_file_is_all_that_is_read(tmp_path: Path, name: str) -> None:
+def test_a_short_part_of_a_long_file_is_all_that_is_read(tmp_path, name):
     whole = recording(2_000_000)
     path = tmp_path / FORMATS[name]
     write(name, path, whole)

@@ -1,7 +1,5 @@
 """Units of times and rows of arrays that are doubted, and those that are not."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Callable
 from pathlib import Path
@@ -84,9 +82,7 @@ def changed(values: NDArray[Any], value: float, at: int = 1500) -> NDArray[Any]:
         {"x": changed(np.arange(COUNT) % 64 * 1.0, 0.5)},
     ],
 )
-def test_a_row_of_arrays_that_is_no_event_is_repaired(
-    tmp_path: Path, write: Write, wrong: dict[str, NDArray[Any]]
-) -> None:
+def test_a_row_of_arrays_that_is_no_event_is_repaired(tmp_path, write, wrong):
     path = write(tmp_path, columns(**wrong))
     with pytest.raises(FileFormatError):
         load(path, size=SIZE)
@@ -97,9 +93,7 @@ def test_a_row_of_arrays_that_is_no_event_is_repaired(
 
 @every_writer
 @pytest.mark.parametrize(("at", "value"), [(-1, 10**13), (0, -(10**10))])
-def test_one_wrong_time_says_nothing_of_the_unit(
-    tmp_path: Path, write: Write, at: int, value: int
-) -> None:
+def test_one_wrong_time_says_nothing_of_the_unit(tmp_path, write, at, value):
     path = write(tmp_path, columns(t=changed(STEADY, value, at)))
     with pytest.warns(TexventWarning, match="a few of its times are"):
         load(path, size=SIZE)
@@ -110,15 +104,13 @@ def test_one_wrong_time_says_nothing_of_the_unit(
 @every_writer
 @pytest.mark.parametrize("kind", [int, float])
 @pytest.mark.parametrize("start", [0, 3_000_000_000, 1_700_000_000_000_000])
-def test_whole_us_are_read_after_a_pause_and_since_1970(
-    tmp_path: Path, write: Write, start: int, kind: type
-) -> None:
+def test_whole_us_are_read_after_a_pause_and_since_1970(tmp_path, write, start, kind):
     times = (start + STEADY + np.where(np.arange(COUNT) < 1500, 0, 3_600_000_000)).astype(kind)
     assert load(write(tmp_path, columns(t=times)), size=SIZE).t.tolist() == times.tolist()
 
 
 @every_writer
-def test_whole_ms_are_doubted_even_after_one_wrong_time(tmp_path: Path, write: Write) -> None:
+def test_whole_ms_are_doubted_even_after_one_wrong_time(tmp_path, write):
     path = write(tmp_path, columns(t=changed(STEADY // 1000 * 4, 10**13, -1)))
     repaired = pytest.warns(TexventWarning, match="was repaired")
     with repaired, pytest.warns(TexventWarning, match="time-unit ms"):
@@ -126,7 +118,7 @@ def test_whole_ms_are_doubted_even_after_one_wrong_time(tmp_path: Path, write: W
 
 
 @pytest.mark.parametrize("format", ["csv", "ecd", "e2vid", "npz", "hdf5", "n-imagenet"])
-def test_files_of_texvent_and_of_known_layouts_are_not_doubted(tmp_path: Path, format: str) -> None:
+def test_files_of_texvent_and_of_known_layouts_are_not_doubted(tmp_path, format):
     names = {"csv": "e.csv", "ecd": "e.txt", "e2vid": "e.zip", "hdf5": "e.h5"}
     path = save(
         tmp_path / names.get(format, "e.npz"),
@@ -138,14 +130,14 @@ def test_files_of_texvent_and_of_known_layouts_are_not_doubted(tmp_path: Path, f
         assert len(load(path)) == COUNT
 
 
-def test_classes_beside_the_events_of_a_text_are_left_out(tmp_path: Path) -> None:
+def test_classes_beside_the_events_of_a_text_are_left_out(tmp_path):
     rows = (f"{at * 700},{at % 64},{at % 48},{at % 2},{at % 7}\n" for at in range(COUNT))
     (tmp_path / "e.csv").write_text("t,x,y,p,label\n" + "".join(rows))
     assert load(tmp_path / "e.csv", size=SIZE).label is None
 
 
 @pytest.mark.parametrize("form", ["{:.6g}", "{:.2f}"])
-def test_seconds_cut_to_some_digits_are_noticed(tmp_path: Path, form: str) -> None:
+def test_seconds_cut_to_some_digits_are_noticed(tmp_path, form):
     rows = (f"{form.format(1700 + at * 0.0007)} 1 1 {at % 2}\n" for at in range(COUNT))
     (tmp_path / "e.txt").write_text("".join(rows))
     with pytest.warns(TexventWarning, match="steps of 10,000 µs"):

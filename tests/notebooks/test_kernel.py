@@ -1,7 +1,5 @@
 """Displays and progress bars in a real kernel, as nbclient runs notebooks."""
 
-from __future__ import annotations
-
 import os
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What notebooks of docs/notebooks hold; `make docs` runs them, and refuses errors and warnings."""
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path

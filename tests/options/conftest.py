@@ -1,7 +1,5 @@
 """Runs of commands, each made once."""
 
-from __future__ import annotations
-
 import functools
 
 import pytest

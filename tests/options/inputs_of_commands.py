@@ -1,7 +1,5 @@
 """Small inputs of all commands: clips, images, motion vectors, recordings, options."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import cv2

@@ -5,8 +5,6 @@
 `outcomes.json` holds them: of what was said, of events, of other files.
 """
 
-from __future__ import annotations
-
 import functools
 import json
 import tempfile

@@ -1,7 +1,5 @@
 """Commands as `--help` lists their options, and all that a run of one leaves to be seen."""
 
-from __future__ import annotations
-
 import contextlib
 import functools
 import hashlib

@@ -1,7 +1,5 @@
 """Every option of every command changes something, and figures change in the stated direction."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Iterator

@@ -3,8 +3,6 @@
 After a wanted change, run `python -m tests.options.test_printed` and read the difference.
 """
 
-from __future__ import annotations
-
 import functools
 import re
 import tempfile

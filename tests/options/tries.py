@@ -1,7 +1,5 @@
 """Commands whose options are tried, and values to try."""
 
-from __future__ import annotations
-
 import re
 from collections import defaultdict
 from pathlib import Path

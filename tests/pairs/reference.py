@@ -3,8 +3,6 @@
 Paths through pixels where two surfaces meet, samples of an image between its pixels, and the mix.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

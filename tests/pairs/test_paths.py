@@ -1,7 +1,5 @@
 """Paths where two surfaces meet: hand-computed cases; compiled paths equal their definition."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

@@ -3,8 +3,6 @@
 `test_paths` holds the compiled warp to the same samples.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

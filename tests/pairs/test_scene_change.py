@@ -1,7 +1,5 @@
 """Scene cuts and flashes against motion, zoom, fades and noise."""
 
-from __future__ import annotations
-
 import itertools
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Cuts and flashes as their rule says, cell by cell, for pairs near all of its limits."""
 
-from __future__ import annotations
-
 from collections import Counter
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The warping kernel: hand-computed cases, and the compiled one against its definition."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from tests.pairs import reference

@@ -1,7 +1,5 @@
 """The main commands in a folder whose name has spaces, an umlaut, a dash and Chinese characters."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import cv2

@@ -1,7 +1,5 @@
 """Without what Windows lacks texvent works, or refuses in one clear line. Not run on Windows."""
 
-from __future__ import annotations
-
 import errno
 import os
 import sys
@@ -27,7 +25,7 @@ def no_posix(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.usefixtures("no_posix")
-def test_files_and_folders_appear_whole_without_locks(tmp_path: Path) -> None:
+def test_files_and_folders_appear_whole_without_locks(tmp_path):
     left = tmp_path / ".texvent-0.part.h5"
     left.write_bytes(b"of a killed process, or of one that lives")
     for content in (b"one", b"two"):
@@ -41,9 +39,7 @@ def test_files_and_folders_appear_whole_without_locks(tmp_path: Path) -> None:
     assert {path.name for path in tmp_path.iterdir()} == {"a.bin", "set", left.name}
 
 
-def test_a_file_that_another_program_has_open_is_refused_in_one_line(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_file_that_another_program_has_open_is_refused_in_one_line(tmp_path, monkeypatch):
     target = tmp_path / "a.bin"
     target.write_bytes(b"old")
 
@@ -63,16 +59,14 @@ def test_a_file_that_another_program_has_open_is_refused_in_one_line(
 
 
 @pytest.mark.usefixtures("no_posix")
-def test_memory_that_the_system_does_not_tell_is_assumed(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_memory_that_the_system_does_not_tell_is_assumed(monkeypatch):
     monkeypatch.setattr(memory, "_CONTROL_GROUPS", ())
     assert memory.machine_bytes() is None
     assert memory.usable_bytes.__wrapped__() == int(memory.SHARE * memory.UNKNOWN_BYTES)
 
 
 @pytest.mark.parametrize(("system", "words"), [("win32", "dshow"), ("darwin", "avfoundation")])
-def test_a_camera_named_as_on_linux_is_refused_with_another_way(
-    system: str, words: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_camera_named_as_on_linux_is_refused_with_another_way(system, words, monkeypatch):
     monkeypatch.setattr(sys, "platform", system)
     with pytest.raises(InputError, match=rf"a camera's name on Linux.*ffmpeg -f {words} .* -o"):
         open_frames("/dev/video77", CaptureConfig())

@@ -4,8 +4,6 @@ A kill is the folder as it is before a step that changes it: such copies are tak
 and each is what the next process would find.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

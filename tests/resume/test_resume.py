@@ -1,7 +1,5 @@
 """Whatever happens between two runs, the second ends as an undisturbed one, or says why not."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -185,9 +183,5 @@ def runs(
 
 @pytest.mark.long
 @pytest.mark.parametrize("disturb", DISTURBANCES)
-def test_a_second_run_ends_as_an_undisturbed_one_or_says_why_not(
-    runs: Runs,
-    disturb: Callable[[Runs, pytest.CaptureFixture[str]], None],
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_a_second_run_ends_as_an_undisturbed_one_or_says_why_not(runs, disturb, capsys):
     disturb(runs, capsys)

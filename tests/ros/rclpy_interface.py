@@ -5,8 +5,6 @@ Messages have the fields of the registered definitions, refuse others as rosidl'
 are checked when rosbags serialises them.
 """
 
-from __future__ import annotations
-
 import enum
 from collections import defaultdict, deque
 from types import ModuleType, SimpleNamespace

@@ -1,7 +1,5 @@
 """A check reads a video once; its motion is that of the whole."""
 
-from __future__ import annotations
-
 import warnings
 from fractions import Fraction
 from itertools import islice

@@ -1,7 +1,5 @@
 """What a check advises helps."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from tests.video_check.made_clips import encode, pan

@@ -1,7 +1,5 @@
 """Every way to make a run: events, provenance and warnings are those of the function."""
 
-from __future__ import annotations
-
 import csv
 import shutil
 import warnings

@@ -1,7 +1,5 @@
 """Files of a run: each is as its own writer makes it of the run's frames, options and facts."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

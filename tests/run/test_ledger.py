@@ -1,7 +1,5 @@
 """The ledger of a folder against a dictionary: what is noted, complete, damaged and dropped."""
 
-from __future__ import annotations
-
 import tempfile
 from pathlib import Path
 

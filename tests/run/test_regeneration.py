@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 from pathlib import Path
@@ -29,9 +27,7 @@ def simulation():
 
 
 @pytest.mark.parametrize("seed_of_events", [4, 5])
-def test_a_generated_recording_is_filmed_again_from_its_provenance(
-    simulation, seed_of_events: int
-) -> None:
+def test_a_generated_recording_is_filmed_again_from_its_provenance(simulation, seed_of_events):
     facts = json.loads(json.dumps(simulation.provenance))
     facts["settings"]["run"]["seed"] = seed_of_events  # data sets simulate a video several times
     again = render_again(facts)
@@ -56,7 +52,7 @@ def test_a_generated_recording_is_filmed_again_from_its_provenance(
         {"prompt": " "},
     ],
 )
-def test_other_recordings_cannot_be_filmed_again(simulation, changed: dict[str, object]) -> None:
+def test_other_recordings_cannot_be_filmed_again(simulation, changed):
     assert render_again({**simulation.provenance, **changed}) is None
 
 
@@ -71,9 +67,7 @@ EDITS: dict[str, Any] = {
 
 
 @pytest.mark.parametrize("names", [(), *((one,) for one in EDITS), tuple(EDITS)], ids="+".join)
-def test_parts_in_time_fit_their_video_and_edited_ones_do_not(
-    simulation, names: tuple[str, ...]
-) -> None:
+def test_parts_in_time_fit_their_video_and_edited_ones_do_not(simulation, names):
     events = EventStream.from_columns(
         [1], [1], [60_000], [1], size=(48, 36), metadata=simulation.provenance
     )
@@ -98,9 +92,7 @@ def board(tmp_path: Path) -> dict[str, Any]:
     return facts
 
 
-def test_a_scene_that_shows_files_is_drawn_for_who_asks_and_if_they_are_listed(
-    board: dict[str, Any], tmp_path: Path
-) -> None:
+def test_a_scene_that_shows_files_is_drawn_for_who_asks_and_if_they_are_listed(board, tmp_path):
     with pytest.warns(texvent.TexventWarning, match=r"shows .*png' of this machine"):
         assert render_again(board) is None
     assert render_again(board, with_files=True) is not None
@@ -111,9 +103,7 @@ def test_a_scene_that_shows_files_is_drawn_for_who_asks_and_if_they_are_listed(
     assert render_again(board, with_files=True) is None
 
 
-def test_a_folder_of_models_is_a_file_too_and_a_sensor_file_is_not_read(
-    simulation, tmp_path: Path
-) -> None:
+def test_a_folder_of_models_is_a_file_too_and_a_sensor_file_is_not_read(simulation, tmp_path):
     facts = json.loads(json.dumps(simulation.provenance))
     facts["settings"]["run"]["sensor"] = str(tmp_path / "no.toml")
     assert render_again(facts) is not None
@@ -124,9 +114,7 @@ def test_a_folder_of_models_is_a_file_too_and_a_sensor_file_is_not_read(
 
 @pytest.mark.long
 @pytest.mark.parametrize("kind", ["png", "html", "mp4"])
-def test_a_file_cannot_ask_for_more_frames_than_are_shown(
-    simulation, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kind: str
-) -> None:
+def test_a_file_cannot_ask_for_more_frames_than_are_shown(simulation, tmp_path, monkeypatch, kind):
     facts = json.loads(json.dumps(simulation.provenance))
     facts["settings"]["generate"].update(duration=86400.0, fps="1000000")
     times = np.arange(1000, 100_000, 999)

@@ -1,7 +1,5 @@
 """Pooled memory: used again once nobody holds it, and never before."""
 
-from __future__ import annotations
-
 import copy
 import gc
 import pickle

@@ -1,7 +1,5 @@
 """Devices: what auto stands for, what it does where a GPU cannot be used, and lack of memory."""
 
-from __future__ import annotations
-
 import ctypes
 
 import pytest

@@ -1,7 +1,5 @@
 """One test of all rows of a large table: a thousand tests of a millisecond each cost minutes."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from functools import wraps
 from typing import TypeVar

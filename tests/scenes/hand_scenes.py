@@ -1,7 +1,5 @@
 """Scenes made by hand, so that the renderer is tested without the words that make scenes."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 

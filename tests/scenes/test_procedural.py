@@ -1,7 +1,5 @@
 """The embedded generator as the pipeline sees it: a stream that renders any instant."""
 
-from __future__ import annotations
-
 import json
 from contextlib import nullcontext
 from fractions import Fraction

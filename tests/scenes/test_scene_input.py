@@ -1,7 +1,5 @@
 """Scenes at the doors: Python, the command line, and the metadata of events."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 

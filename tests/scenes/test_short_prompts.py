@@ -80,26 +80,6 @@ def test_a_traffic_light_shows_the_colour_that_is_said(text, colours):
 
 
 @pytest.mark.parametrize(
-    "text",
-    ["a dog runs along a path", "a drone flies through a hoop", "a dog runs through a hoop",
-     "a woman pours milk into a glass", "a violinist plays in a park", "two swimmers in a lake",
-     "an array of four leds blinking at 10 Hz", "a crowded beach", "a woman sits at a piano",
-     "two men watch a train", "a woman feeds the ducks", "a boy slides down a slide",
-     "a balloon floats up into the sky", "a dolphin jumps out of the sea", "a drone spins in place",
-     "a quadruped robot trots", "a delivery robot rolls along the sidewalk",
-     "a gymnast does a cartwheel", "a boy does a handstand", "two boxers fight in a gym",
-     "highway at night, oncoming headlights", "heavy rain pounding on a puddle", "birds on a wire",
-     "palm trees bending in the wind", "a soap bubble pops", "a tram turns at a corner",
-     "a street seen from a rooftop", "a swimmer dives into the sea",
-     "a weightlifter lifts a barbell",
-     "a car stops for a pedestrian", "curtains move in the wind", "seagulls fly overhead",
-     "a tram stops at a station", "a cat chases a mouse", "a dog barks at a cat"],
-)  # fmt: skip
-def test_words_that_the_picture_shows_are_not_listed_as_lost(text):
-    assert is_right(text)
-
-
-@pytest.mark.parametrize(
     "text", ["a dog jumps into a lake", "a man leaps into the sea", "a woman jumps into the water"]
 )
 def test_who_jumps_into_water_comes_from_above_and_splashes(text):
@@ -130,11 +110,6 @@ def test_a_fence_is_as_long_as_the_way_along_it(text):
     assert is_right(text)
 
 
-@pytest.mark.parametrize("text", ["an open hammer", "a closed dog", "a chair opens"])
-def test_nothing_else_opens(text):
-    assert {"open", "closed", "opens"} & {*report(text).not_understood}
-
-
 def test_an_act_begins_when_it_is_said_and_takes_longer_slowly():
     usual, late, slow = (
         staged(text)[0].actors[0]
@@ -143,47 +118,6 @@ def test_an_act_begins_when_it_is_said_and_takes_longer_slowly():
     np.testing.assert_allclose(parts(usual, 0.5), parts(late, 1.5))
     np.testing.assert_allclose(parts(usual, 0.5), parts(slow, 1.0))
     np.testing.assert_array_equal(parts(late, 0.0), parts(late, 1.0))
-
-
-@pytest.mark.parametrize(
-    "text",
-    ["a man walks through a door", "a dog runs through a doorway", "a cat walks through the door"],
-)
-def test_who_goes_through_a_door_finds_it_open(text):
-    assert is_right(text)
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        "police car with flashing blue lights at night",
-        "an ambulance with its lights flashing",
-        "a fire engine with flashing lights",
-        "a car's headlights flicker",
-        "the lights of a bus flash",
-        "the blades of a fan rotate",
-        "a fan with four blades",
-        "a clock, its hands moving",
-    ],
-)
-def test_parts_that_do_what_is_said_are_shown(text):
-    assert is_right(text)
-
-
-@pytest.mark.parametrize(
-    ("text", "false"),
-    [
-        ("a tree with flashing lights", "flashing"),
-        ("a ceiling fan with green blades", "green"),
-        ("an ambulance with yellow lights", "yellow"),
-        ("a fan with shiny blades", "shiny"),
-        ("a dog with striped legs", "striped"),
-    ],
-)
-def test_what_is_not_so_of_a_part_is_not_shown(text, false):
-    said = report(text)
-    assert false not in said.shown
-    assert false in " ".join([*said.not_shown, *said.not_understood])
 
 
 @pytest.mark.parametrize(
@@ -250,15 +184,6 @@ def test_another_platform_is_one_to_land_on():
 
 @pytest.mark.parametrize(
     "text",
-    ["two drones crossing each other's path", "a ball on its way", "a car on the dog's track"],
-)
-def test_the_way_of_something_is_no_place(text):
-    assert read(text, list_nouns()).scene.place.name is None
-    assert {"path", "way", "track"} & {*report(text).not_understood}
-
-
-@pytest.mark.parametrize(
-    "text",
     ["a cup falls from a table", "a cat jumps from a wall", "a ball falls from a box"],
 )
 def test_what_falls_or_jumps_from_something_is_on_it_at_first(text):
@@ -279,39 +204,6 @@ def test_a_view_that_travels_goes_once_and_as_fast_as_is_said(text, speed):
     camera = staged(text)[0].camera
     way = camera(1.1).position - camera(0.9).position
     np.testing.assert_allclose(np.linalg.norm(way), 0.2 * speed, rtol=0.02)
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        "car braking from 50 km/h to standstill",
-        "a sailing boat on a calm lake at sunset",
-        "7x9 calibration board moved to the left at 0.5 m/s",
-        "someone walks past a stone",
-        "a drone flies through a gate at 8 m/s",
-        "a dog runs round the tree",
-    ],
-)
-def test_other_words_of_short_prompts_are_read(text):
-    assert is_right(text)
-
-
-@pytest.mark.parametrize(
-    ("text", "rates"),
-    [
-        ("two LEDs blinking at 50 Hz and 100 Hz", [50.0, 100.0]),
-        ("a lamp flickering at 20 Hz next to a lamp flickering at 30 Hz", [20.0, 30.0]),
-        ("two LEDs blinking at 80 Hz", [80.0]),
-    ],
-)
-def test_each_of_several_has_its_own_frequency(text, rates):
-    objects = read(text, list_nouns()).scene.objects
-    assert [one.blink_hz for one in objects] == rates
-    assert not report(text).not_understood
-
-
-def test_a_second_frequency_of_one_thing_is_not_understood():
-    assert "9 hz" in report("an LED blinks at 5 Hz at 9 Hz").not_understood
 
 
 @pytest.mark.parametrize(
@@ -364,11 +256,6 @@ def test_a_camera_goes_through_what_has_a_way_through_alone():
         assert "through" in report(text).not_understood
 
 
-def test_a_board_has_the_squares_that_are_said_after_it():
-    board = read("calibration board 9x6 on a table", list_nouns()).scene.objects[0]
-    assert board.picture.value == "9x6"
-
-
 @pytest.mark.parametrize(
     "text",
     [
@@ -383,16 +270,6 @@ def test_a_pattern_that_moves_up_and_down_does_so_in_the_picture(text):
     assert np.ptp(places[:, 2]) > 0.3 * one.model.height
     assert np.ptp(places[:, :2], axis=0).max() < 1e-6
     assert is_right(text)
-
-
-@pytest.mark.parametrize(
-    ("text", "verb", "is_so"),
-    [("two men carry a table", "carry", False), ("three kids hold an umbrella", "hold", False),
-     ("a man and a woman carry a sofa", "carry", False), ("a man carries a box", "carries", True),
-     ("two women hold two cups", "hold", True)],
-)  # fmt: skip
-def test_what_several_hold_is_held_by_each_or_not_shown(text, verb, is_so):
-    assert (verb in report(text).shown) is is_so
 
 
 @pytest.mark.parametrize(
@@ -418,14 +295,6 @@ def test_what_approaches_the_camera_comes_nearer(text):
 def test_what_is_in_the_air_begins_at_the_height_that_is_said(text, height_m):
     assert staged(text)[0].actors[0].lowest_m(0.0) == pytest.approx(height_m, abs=0.02 * height_m)
     assert is_right(text)
-
-
-@pytest.mark.parametrize(
-    "text", ["a drone flies 3 m over a car", "a man 2 m above the ground", "a dog 1 m off a table"]
-)
-def test_no_other_height_is_read(text):
-    said = report(text)
-    assert any("m" in one.split() or one[0].isdigit() for one in said.not_understood)
 
 
 @pytest.mark.parametrize(

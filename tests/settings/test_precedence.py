@@ -1,7 +1,5 @@
 """Of two places that set an option, the one that the documentation names later wins."""
 
-from __future__ import annotations
-
 import itertools
 import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence

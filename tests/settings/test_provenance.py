@@ -1,7 +1,5 @@
 """A source that was changed is told from one that was only touched."""
 
-from __future__ import annotations
-
 import itertools
 import os
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Where the GPU backend's tests run: on a GPU, else on the CPU in Triton's interpreter."""
 
-from __future__ import annotations
-
 import importlib
 import os
 import re

@@ -1,7 +1,5 @@
 """Simulators of other packages: run as ours are, and checked on request."""
 
-from __future__ import annotations
-
 import sys
 import types
 

@@ -1,7 +1,5 @@
 """What a user gets of every pixel model alike: labels, noise or clean only, rates per second."""
 
-from __future__ import annotations
-
 import contextlib
 import dataclasses
 import math

@@ -1,7 +1,5 @@
 """Relations between runs: the clip changed, or the way to go through it, and the events known."""
 
-from __future__ import annotations
-
 import dataclasses
 import itertools
 from collections import Counter

@@ -3,16 +3,12 @@
 import sys
 from pathlib import Path
 
-import pytest
-
 from texvent.simulation.physical.cameras import CAMERAS
 
 ROOT = Path(__file__).parents[2]
 
 
-def test_every_camera_has_a_column_and_every_measured_constant_a_source(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_every_camera_has_a_column_and_every_measured_constant_a_source(monkeypatch):
     monkeypatch.syspath_prepend(str(ROOT / "docs" / "site"))
     import camera_tables  # type: ignore[import-not-found, unused-ignore]
 

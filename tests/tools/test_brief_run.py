@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 from tests.conftest import choose_rows
 
 
-def brief_run(*tables: int, is_long: bool = False) -> list[tuple[str, ...]]:
+def brief_run(*tables: int, is_long: bool = False, file: str = "a.py") -> list[tuple[str, ...]]:
     """Of a test over tables of so many rows: the rows that a brief run has."""
     found = {}
     for rows in product(*(map(str, range(count)) for count in tables)):
         call = {"callspec": SimpleNamespace(_idlist=rows)} if rows else {}
-        name = f"a.py::test_it[{'-'.join(rows)}]"
+        name = f"{file}::test_it[{'-'.join(rows)}]"
         mark = {"get_closest_marker": lambda _: is_long or None}
         found[name] = rows, SimpleNamespace(nodeid=name, **mark, **call)
     chosen = choose_rows([item for _, item in found.values()])
@@ -27,8 +27,10 @@ def test_each_row_of_each_table_has_its_turn_and_few_have_more(tables):
     for place, count in enumerate(tables):
         assert {rows[place] for rows in chosen} == {*map(str, range(count))}
     assert max(tables, default=1) <= len(chosen) <= max(sum(tables), 1)
+    of_scenes = brief_run(*tables, file="tests/scenes/a.py")
+    assert max(tables, default=1) <= 4 * len(of_scenes) <= max(sum(tables), 1) + 3
 
 
-@pytest.mark.parametrize(("tables", "kept"), [([], 0), ([1], 0), ([3], 1), ([17], 3), ([4, 4], 3)])
+@pytest.mark.parametrize(("tables", "kept"), [([], 0), ([1], 0), ([3], 1), ([17], 2), ([4, 4], 2)])
 def test_an_eighth_of_the_rows_of_a_long_test_has_its_turn(tables, kept):
     assert len(brief_run(*tables, is_long=True)) == kept

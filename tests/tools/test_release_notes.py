@@ -1,7 +1,5 @@
 """Release notes are the section of one version, and a tag must be the version of the package."""
 
-from __future__ import annotations
-
 import pytest
 from tools.release_notes import checked_version, cut_notes
 

@@ -1,7 +1,5 @@
 """Videos that torchcodec decodes are those of PyAV; what it cannot vouch for is left to PyAV."""
 
-from __future__ import annotations
-
 import subprocess
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Cuts of clips against their definition, frame by frame."""
 
-from __future__ import annotations
-
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st

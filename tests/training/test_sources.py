@@ -1,7 +1,5 @@
 """Sources of training clips: prompts and data sets bring truth at the times of frames."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

@@ -1,7 +1,5 @@
 """The training stream: the same for any ranks, drawn per clip, true, bounded, patient."""
 
-from __future__ import annotations
-
 import gc
 import itertools
 import pickle

@@ -1,7 +1,5 @@
 """Batches of the stream on a GPU are those of the CPU, bit for bit."""
 
-from __future__ import annotations
-
 import itertools
 from dataclasses import replace
 

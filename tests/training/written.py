@@ -1,7 +1,5 @@
 """Sources of training clips, written by the tests."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

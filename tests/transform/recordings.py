@@ -1,7 +1,5 @@
 """Small recordings for the tests of transformations, whole and cut into packets."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Iterable
 

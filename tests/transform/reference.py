@@ -1,7 +1,5 @@
 """The rules of the event filters as plain loops over rows (x, y, t, p): which events are kept."""
 
-from __future__ import annotations
-
 from collections import Counter
 from itertools import product
 

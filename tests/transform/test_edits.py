@@ -1,7 +1,5 @@
 """Mirroring, turning, cropping, coarser pixels: by hand, and as properties of any recording."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

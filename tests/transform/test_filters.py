@@ -1,7 +1,5 @@
 """Filters against their rules, and hot pixels at edges and on lines."""
 
-from __future__ import annotations
-
 from itertools import compress
 
 import numpy as np
@@ -24,14 +22,14 @@ from texvent.transform.filters.noise_filters import (
 )
 
 from . import reference
-from .recordings import CUTS, ROWS, SIZE, Rows, packets, rows_of, stream
+from .recordings import CUTS, ROWS, SIZE, packets, rows_of, stream
 
 
 @pytest.mark.parametrize("name", FILTERS.names())
 @given(rows=ROWS, cuts=CUTS, start=st.sampled_from([0, 10**15, -(10**15)]), data=st.data())
 def test_every_filter_keeps_what_its_rule_says_however_packets_are_cut(
-    name: str, rows: Rows, cuts: list[int], start: int, data: st.DataObject
-) -> None:
+    name, rows, cuts, start, data
+):
     rule, values = reference.RULES[name]
     assert set(values) == set(option_names(FILTERS.load(name)))
     options = data.draw(st.fixed_dictionaries(values))
@@ -44,7 +42,7 @@ def test_every_filter_keeps_what_its_rule_says_however_packets_are_cut(
 
 
 @given(st.integers(1, 10**5), st.integers(1, 10**5))
-def test_a_window_holds_whole_events(count: int, window_us: int) -> None:
+def test_a_window_holds_whole_events(count, window_us):
     """Also where the float nearest to the rate lies below it, as 3 / 700e-6 does."""
     for rate_hz in (count / (window_us * 1e-6), count * 1e6 / window_us):
         assert RateLimitFilter(rate_hz=rate_hz, window_us=window_us).most == count
@@ -67,23 +65,21 @@ def test_a_window_holds_whole_events(count: int, window_us: int) -> None:
         ((6, 8), [(0, 0)]),
     ],
 )
-def test_hot_pixels_are_found_at_the_edge_and_on_a_line_of_pixels(
-    shape: tuple[int, int], hot: list[tuple[int, int]]
-) -> None:
+def test_hot_pixels_are_found_at_the_edge_and_on_a_line_of_pixels(shape, hot):
     counts = np.ones(shape, np.int64)
     for place in hot:
         counts[place] = 100
     assert [*map(tuple, np.argwhere(mask_hot_pixels(counts)).tolist())] == hot
 
 
-def test_a_line_that_ends_at_the_edge_is_not_hot() -> None:
+def test_a_line_that_ends_at_the_edge_is_not_hot():
     counts = np.ones((6, 8), np.int64)
     counts[:, 3] = 100
     assert not mask_hot_pixels(counts).any()
     assert not mask_hot_pixels(np.full((1, 1), 100)).any()
 
 
-def test_hot_pixels_are_found_and_masked() -> None:
+def test_hot_pixels_are_found_and_masked():
     rng = np.random.default_rng(0)
     size = SensorSize(32, 24)
     count = 6000
@@ -99,7 +95,7 @@ def test_hot_pixels_are_found_and_masked() -> None:
     assert find_hot_pixels(packets(events, [100, 3000])).tolist() == mask.tolist()
 
 
-def test_a_mask_fits_its_sensor() -> None:
+def test_a_mask_fits_its_sensor():
     events = stream([(1, 2, 3, 1), (2, 1, 4, 0)])
     mask = np.zeros((6, 8), bool)
     mask[2, 1] = True
@@ -110,7 +106,7 @@ def test_a_mask_fits_its_sensor() -> None:
         events.filter("mask", pixels=np.zeros((6, 8), np.int64))
 
 
-def test_a_filter_by_text() -> None:
+def test_a_filter_by_text():
     text = "background-activity: window_us=5000 ,support=2,polarity=true"
     assert read_part(text) == (
         "background-activity", {"window_us": 5000, "support": 2, "polarity": True},
@@ -120,7 +116,7 @@ def test_a_filter_by_text() -> None:
             read_part(wrong)
 
 
-def test_unknown_names_options_and_values_are_refused() -> None:
+def test_unknown_names_options_and_values_are_refused():
     events = stream([])
     with pytest.raises(ConfigError, match=r"unknown event filter 'hot-pixel'.*hot-pixels"):
         events.filter("hot-pixel")
@@ -136,7 +132,7 @@ def test_unknown_names_options_and_values_are_refused() -> None:
         events.filter(RefractoryFilter(), period_us=3)
 
 
-def test_hot_pixels_of_packets_that_can_be_read_once_are_refused_not_lost() -> None:
+def test_hot_pixels_of_packets_that_can_be_read_once_are_refused_not_lost():
     once = EventPackets(iter([stream([(1, 1, 1, 1)])]), SIZE)
     with pytest.raises(InputError):
         once.filter("hot-pixels").collect()

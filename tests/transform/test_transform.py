@@ -1,10 +1,7 @@
 """Regions, times, sizes, lenses and merging: by hand on few events, and by property on many."""
 
-from __future__ import annotations
-
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import h5py
 import numpy as np
@@ -32,15 +29,13 @@ def stream(rows: Rows) -> EventStream:
 
 
 @pytest.mark.parametrize("region", [(6, 0, 3, 1), (0, 0, 0, 1), (0, 5, 1, 2), (-1, 0, 2, 2)])
-def test_a_region_outside_the_sensor_is_refused(region: tuple[int, int, int, int]) -> None:
+def test_a_region_outside_the_sensor_is_refused(region):
     with pytest.raises(InputError, match="does not lie inside the sensor of 8x6"):
         crop(packets(stream([])), Region(*region))
 
 
 @given(rows=ROWS, width=st.integers(1, 20), height=st.integers(1, 20))
-def test_resize_puts_events_into_the_pixel_that_covers_their_old_one(
-    rows: Rows, width: int, height: int
-) -> None:
+def test_resize_puts_events_into_the_pixel_that_covers_their_old_one(rows, width, height):
     events = stream(rows)
     resized = resize(packets(events), SensorSize(width, height))
     assert resized.size == (width, height)
@@ -50,7 +45,7 @@ def test_resize_puts_events_into_the_pixel_that_covers_their_old_one(
 
 
 @given(rows=ROWS, start=st.integers(0, 20), length=st.integers(1, 20), cut=st.integers(0, 40))
-def test_a_time_range_is_half_open(rows: Rows, start: int, length: int, cut: int) -> None:
+def test_a_time_range_is_half_open(rows, start, length, cut):
     events = stream(rows)
     want = [row for row in rows_of(events) if start <= row[2] < start + length]
     try:
@@ -60,7 +55,7 @@ def test_a_time_range_is_half_open(rows: Rows, start: int, length: int, cut: int
         assert start > max(times) or start + length <= min(times)
 
 
-def test_what_comes_after_the_time_range_is_not_read() -> None:
+def test_what_comes_after_the_time_range_is_not_read():
     def endless() -> Iterator[EventStream]:
         yield stream([(1, 1, 1, 1)])
         yield stream([(1, 1, 9, 1)])
@@ -72,7 +67,7 @@ def test_what_comes_after_the_time_range_is_not_read() -> None:
         keep_time(EventPackets([], SIZE), 5, 5)
 
 
-def test_time_may_start_at_the_first_event() -> None:
+def test_time_may_start_at_the_first_event():
     late = stream([(1, 1, 7, 1), (2, 2, 9, 0)])
     assert start_at_zero(packets(late, [1])).collect().t.tolist() == [0, 2]
     assert len(start_at_zero(EventPackets([], SIZE)).collect()) == 0
@@ -82,14 +77,14 @@ def test_time_may_start_at_the_first_event() -> None:
 @given(
     parts=st.lists(st.tuples(ROWS, st.integers(0, 40), st.integers(0, 40)), min_size=1, max_size=4)
 )
-def test_merging_is_sorting_all_events(parts: list[tuple[Rows, int, int]]) -> None:
+def test_merging_is_sorting_all_events(parts):
     merged = merge([packets(stream(rows), cuts) for rows, *cuts in parts])
     together = [row for rows, *_ in parts for row in rows]
     assert rows_of(merged) == rows_of(stream(together))
     assert rows_of(merged) == rows_of(stream(together)), "it can be read again"
 
 
-def test_merging_keeps_the_label_only_if_all_have_one() -> None:
+def test_merging_keeps_the_label_only_if_all_have_one():
     label = np.array([1, 0], dtype=np.uint8)
     plain = stream([(1, 1, 1, 1), (2, 2, 2, 0)])
     labelled = EventStream(plain.x, plain.y, plain.t, plain.p, SIZE, {"seed": 3}, label)
@@ -104,14 +99,14 @@ COEFFICIENTS = (-0.02, 0.004, -0.003, 0.0005)
 FISHEYE = Calibration(Lens(110.0, 110.0, 120.5, 90.5, "equidistant", COEFFICIENTS))
 
 
-def test_a_lens_without_distortion_moves_nothing() -> None:
+def test_a_lens_without_distortion_moves_nothing():
     events = stream([(0, 0, 1, 1), (7, 5, 2, 0), (3, 2, 3, 1)])
     straight = Calibration(Lens(10.0, 10.0, 4.5, 3.5))
     assert undistort(packets(events), straight).collect().equals(events)
     assert undistort(events, straight).equals(events), "a stream gives a stream"
 
 
-def test_a_calibration_file_is_nine_numbers(tmp_path: Path) -> None:
+def test_a_calibration_file_is_nine_numbers(tmp_path):
     path = tmp_path / "calib.txt"
     path.write_text("199.1 198.8 132.2 110.7 -0.368 0.151 -0.0003 -0.0018 0.0\n")
     read = read_calibration(path)
@@ -132,7 +127,7 @@ KALIBR = """cam0:
 """
 
 
-def test_kalibrs_cameras_are_read_by_their_name(tmp_path: Path) -> None:
+def test_kalibrs_cameras_are_read_by_their_name(tmp_path):
     path = tmp_path / "chain.yaml"
     path.write_text(KALIBR.replace("0.0005", "0.0005, 0.0"))  # no fifth, as OpenCV writes it
     read = read_calibration(path)
@@ -172,7 +167,7 @@ WRONG = {
 @pytest.mark.parametrize(
     ("form", "text"), [(form, text) for form, texts in WRONG.items() for text in texts]
 )
-def test_what_is_no_calibration_is_one_short_line(tmp_path: Path, form: str, text: str) -> None:
+def test_what_is_no_calibration_is_one_short_line(tmp_path, form, text):
     path = tmp_path / f"calib.{form}"
     path.write_text(text)
     with pytest.raises(InputError, match=r"calib") as caught:
@@ -181,7 +176,7 @@ def test_what_is_no_calibration_is_one_short_line(tmp_path: Path, form: str, tex
 
 
 @pytest.mark.parametrize("names", [("1", "2"), ("left", "right")])
-def test_cameras_of_any_name_are_chosen(tmp_path: Path, names: tuple[str, str]) -> None:
+def test_cameras_of_any_name_are_chosen(tmp_path, names):
     path = tmp_path / "chain.yaml"
     path.write_text("".join(KALIBR.replace("cam0", name) for name in names))
     with pytest.raises(
@@ -191,7 +186,7 @@ def test_cameras_of_any_name_are_chosen(tmp_path: Path, names: tuple[str, str]) 
     assert read_calibration(Path(f"{path}:{names[1]}")).facts["model"] == "equidistant"
 
 
-def test_a_rectify_map_says_where_each_pixel_belongs(tmp_path: Path) -> None:
+def test_a_rectify_map_says_where_each_pixel_belongs(tmp_path):
     path = tmp_path / "rectify_map.h5"
     places = np.stack(np.meshgrid(np.arange(8.0), np.arange(6.0)), axis=-1).astype(np.float32)
     places[2, 3] = (5.4, 0.6)
@@ -231,9 +226,7 @@ GRID = np.stack(np.meshgrid(np.arange(8.0), np.arange(6.0)), axis=-1).astype(np.
         ),
     ],
 )
-def test_a_map_that_cannot_be_meant_is_refused(
-    tmp_path: Path, change: Callable[[Any], None], message: str
-) -> None:
+def test_a_map_that_cannot_be_meant_is_refused(tmp_path, change, message):
     path = tmp_path / "rectify_map.h5"
     with h5py.File(path, "w") as file:
         change(file)
@@ -241,7 +234,7 @@ def test_a_map_that_cannot_be_meant_is_refused(
         undistort(packets(stream([(1, 1, 1, 1)])), read_calibration(path))
 
 
-def test_a_damaged_map_is_called_damaged(tmp_path: Path) -> None:
+def test_a_damaged_map_is_called_damaged(tmp_path):
     path = tmp_path / "rectify_map.h5"
     with h5py.File(path, "w") as file:
         file["rectify_map"] = GRID
@@ -251,7 +244,7 @@ def test_a_damaged_map_is_called_damaged(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("turn", [1, 2, 3])
-def test_a_map_may_turn_the_image(tmp_path: Path, turn: int) -> None:
+def test_a_map_may_turn_the_image(tmp_path, turn):
     path = tmp_path / "rectify_map.h5"
     with h5py.File(path, "w") as file:
         file["rectify_map"] = np.rot90(GRID[:6, :6], turn)
@@ -265,14 +258,14 @@ def test_a_map_may_turn_the_image(tmp_path: Path, turn: int) -> None:
         (Lens(9.0, 9.0, 4.5, 3.5, "radtan", (-0.9, 0.0)), "% of the events land outside"),
     ],
 )
-def test_a_calibration_that_hardly_fits_is_warned_of(lens: Lens, message: str) -> None:
+def test_a_calibration_that_hardly_fits_is_warned_of(lens, message):
     events = stream([(x, 5, x, 1) for x in range(8)])
     with pytest.warns(TexventWarning, match=message):
         undistort(packets(events), Calibration(lens)).collect()
 
 
 @pytest.mark.parametrize("coefficients", [(1e300,) * 5, (1e9,) * 5, (1e9, 0.0)])
-def test_coefficients_that_leave_no_pixel_are_refused(coefficients: tuple[float, ...]) -> None:
+def test_coefficients_that_leave_no_pixel_are_refused(coefficients):
     lens = Calibration(Lens(90.0, 90.0, 40.0, 30.0, "radtan", coefficients))
     with pytest.raises(InputError, match="leaves 0% of the pixels on a 80x60 sensor"):
         lens.undistorted(SensorSize(80, 60))

@@ -4,8 +4,6 @@ The camera stands at (0, -8, 1.5) m and looks north, level; its focal length is 
 The board's front is 7.5 m away, 2 m wide and 2 m high, and moves 3 m/s to the right.
 """
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 from texvent.camera import PosedCamera

@@ -1,7 +1,5 @@
 """What is read of a clip, from a folder or a sample, is what can be computed by hand."""
 
-from __future__ import annotations
-
 import io
 import itertools
 import json

@@ -1,7 +1,5 @@
 """Which object an event shows: by hand, pixel by pixel."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

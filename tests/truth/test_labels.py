@@ -1,7 +1,5 @@
 """Labels of three formats read alike, are refused in one line, and placed as computed by hand."""
 
-from __future__ import annotations
-
 import json
 from fractions import Fraction
 from pathlib import Path
@@ -39,7 +37,7 @@ def mot(*more: str) -> str:
     return "\n".join([*rows, *more]) + "\n"
 
 
-def test_three_formats_hold_the_same_boxes(tmp_path: Path) -> None:
+def test_three_formats_hold_the_same_boxes(tmp_path):
     (tmp_path / "a.json").write_text(coco())
     (tmp_path / "a.txt").write_text(mot("2,9,3,3,5,5,0,3,1"))  # confidence 0: not to be used
     (tmp_path / "yolo").mkdir()
@@ -86,16 +84,14 @@ def test_three_formats_hold_the_same_boxes(tmp_path: Path) -> None:
         ("b.txt", mot(), "no such labels"),
     ],
 )
-def test_labels_that_cannot_be_are_refused(
-    tmp_path: Path, name: str, content: str, said: str
-) -> None:
+def test_labels_that_cannot_be_are_refused(tmp_path, name, content, said):
     (tmp_path / name).write_text(content)
     with pytest.raises(InputError, match=said):
         read_labels(tmp_path / name.replace("b.", "c."), SIZE)
 
 
 @pytest.mark.parametrize("right", [2, 3])
-def test_a_track_may_tremble(tmp_path: Path, right: int) -> None:
+def test_a_track_may_tremble(tmp_path, right):
     """By less than a diagonal of its box, 5 px, from frame to frame and back."""
     (tmp_path / "a.txt").write_text(f"1,4,1,1,3,4\n2,4,{right},1,3,4\n3,4,1,1,3,4\n")
     assert read_labels(tmp_path / "a.txt", SIZE).boxes["x"].tolist() == [0, right - 1, 0]
@@ -113,7 +109,7 @@ def labels(tmp_path: Path) -> Labels:
     return read_labels(tmp_path / "a.txt", SIZE)
 
 
-def test_without_a_clock_boxes_are_at_the_labelled_frames(labels: Labels) -> None:
+def test_without_a_clock_boxes_are_at_the_labelled_frames(labels):
     boxes, known = labels.place(TIMES, SIZE, IDS)
     assert known.tolist() == [1_000, 3_000, 4_000]
     assert boxes.tolist() == [
@@ -127,7 +123,7 @@ def test_without_a_clock_boxes_are_at_the_labelled_frames(labels: Labels) -> Non
     assert (len(boxes), known.tolist()) == (1, [1_000])
 
 
-def test_tracks_are_interpolated_on_the_clock(labels: Labels) -> None:
+def test_tracks_are_interpolated_on_the_clock(labels):
     boxes, known = labels.place(TIMES, SIZE, IDS, rate_hz=Fraction(2_000))
     assert known.tolist() == [1_000, 1_500, 2_000, 2_500, 3_000, 3_500, 4_000]
     assert (np.diff(boxes["t"]) >= 0).all()
@@ -151,8 +147,6 @@ def test_tracks_are_interpolated_on_the_clock(labels: Labels) -> None:
         ("contain", [(2, 6, 4, 3), (4, 6, 4, 5), (15, 5, 2, 2)]),
     ],
 )
-def test_boxes_are_fitted_as_frames_are(
-    labels: Labels, fit: str, wanted: list[tuple[float, ...]]
-) -> None:
+def test_boxes_are_fitted_as_frames_are(labels, fit, wanted):
     boxes, _ = labels.place(TIMES, SensorSize(20, 20), IDS, fit=fit)
     assert [tuple(one) for one in boxes[list("xywh")].tolist()] == wanted

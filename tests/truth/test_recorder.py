@@ -1,7 +1,5 @@
 """A folder of truth: its content by hand, by other readers, and what is refused."""
 
-from __future__ import annotations
-
 import itertools
 import json
 import shutil

@@ -1,7 +1,5 @@
 """Clips whose faults are known."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import av

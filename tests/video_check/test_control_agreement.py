@@ -1,7 +1,5 @@
 """Agreement of a video with a scene, by its definition."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 
 import cv2

@@ -1,7 +1,5 @@
 """Measurements of short clips, by their definitions."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import pairwise
 

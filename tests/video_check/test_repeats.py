@@ -1,7 +1,5 @@
 """Repeated frames are found, with the rate that the video truly has."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

@@ -1,7 +1,5 @@
 """A small scene with its events: a bright bar that moves right over noise."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path

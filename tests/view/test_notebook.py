@@ -1,7 +1,5 @@
 """What values show of themselves in a notebook: small, escaped, nothing consumed."""
 
-from __future__ import annotations
-
 import base64
 import html
 import re

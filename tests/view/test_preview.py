@@ -1,6 +1,3 @@
-from __future__ import annotations
-
-from collections.abc import Callable
 from fractions import Fraction
 from itertools import combinations
 from pathlib import Path
@@ -29,9 +26,7 @@ def write_preview(stem: Path, steps: Steps, **options: object) -> Preview:
 @pytest.mark.parametrize(
     "kinds", [one for n in (1, 2, 4) for one in combinations(PREVIEW_KINDS, n)]
 )
-def test_every_kind_of_preview_is_whole_beside_any_others(
-    tmp_path: Path, steps: Steps, kinds: tuple[str, ...]
-) -> None:
+def test_every_kind_of_preview_is_whole_beside_any_others(tmp_path, steps, kinds):
     facts = {"prompt": "a bar moves right", "seed": 0}
     stem = tmp_path / "out.v1"
     with Preview(stem, size=SIZE, fps=Fraction(30), kinds=kinds, metadata=facts) as preview:
@@ -54,7 +49,7 @@ def test_every_kind_of_preview_is_whole_beside_any_others(
         assert [one for one in wanted if one not in page] == []
 
 
-def test_of_one_frame_that_frame_is_shown(tmp_path: Path, steps: Steps) -> None:
+def test_of_one_frame_that_frame_is_shown(tmp_path, steps):
     preview = write_preview(tmp_path / "one", steps[:1])
     for path in preview.paths:
         assert path.stat().st_size > 0
@@ -62,18 +57,14 @@ def test_of_one_frame_that_frame_is_shown(tmp_path: Path, steps: Steps) -> None:
         assert len(list(video.decode(video=0))) == 1
 
 
-def test_no_frame_is_an_input_error_and_leaves_nothing(
-    tmp_path: Path, folder_is_clean: Callable[[], bool]
-) -> None:
+def test_no_frame_is_an_input_error_and_leaves_nothing(tmp_path, folder_is_clean):
     with pytest.raises(InputError, match="no frame was given"):
         write_preview(tmp_path / "out", [])
     assert folder_is_clean()
 
 
 @pytest.mark.parametrize("error", [KeyboardInterrupt, RuntimeError])
-def test_an_exception_midway_leaves_nothing(
-    tmp_path: Path, steps: Steps, folder_is_clean: Callable[[], bool], error: type[BaseException]
-) -> None:
+def test_an_exception_midway_leaves_nothing(tmp_path, steps, folder_is_clean, error):
     def interrupt() -> None:
         with Preview(tmp_path / "out", size=SIZE, fps=None) as preview:
             preview.append(*steps[0])
@@ -85,7 +76,7 @@ def test_an_exception_midway_leaves_nothing(
     assert folder_is_clean()
 
 
-def test_every_output_is_checked_before_any_work(tmp_path: Path, steps: Steps) -> None:
+def test_every_output_is_checked_before_any_work(tmp_path, steps):
     (tmp_path / "out.png").write_bytes(b"old")
     with pytest.raises(OutputError, match=r"out\.png exists already"):
         Preview(tmp_path / "out", size=SIZE, fps=None)

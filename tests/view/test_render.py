@@ -1,6 +1,3 @@
-from __future__ import annotations
-
-from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
 from typing import Literal
@@ -30,20 +27,20 @@ def video_times(path: Path) -> list[int]:
         return [round(one.pts * one.time_base * 1_000_000) for one in video.decode(video=0)]
 
 
-def test_a_video_shows_all_events_at_the_asked_rate(tmp_path: Path) -> None:
+def test_a_video_shows_all_events_at_the_asked_rate(tmp_path):
     path = render_events(
         moving_dot(), tmp_path / "out.mp4", config=RenderConfig(render_fps=Fraction(24))
     )
     assert video_times(path) == [round(index * 1_000_000 / 24) for index in range(12)]
 
 
-def test_slow_motion_gives_proportionally_more_images(tmp_path: Path) -> None:
+def test_slow_motion_gives_proportionally_more_images(tmp_path):
     path = render_events(moving_dot(), tmp_path / "out.mp4", config=RenderConfig(speed=0.25))
     assert len(video_times(path)) == 60
 
 
 @pytest.mark.parametrize("count", [None, 180])
-def test_an_image_shows_the_busiest_window(tmp_path: Path, count: int | None) -> None:
+def test_an_image_shows_the_busiest_window(tmp_path, count):
     quiet, busy = moving_dot(0.18), moving_dot(0.01)
     burst = EventStream(
         np.repeat(busy.x, 9), np.repeat(busy.y, 9), np.repeat(busy.t, 9), np.ones(180, int), SIZE
@@ -59,23 +56,21 @@ def test_an_image_shows_the_busiest_window(tmp_path: Path, count: int | None) ->
 
 
 @pytest.mark.parametrize("extension", [".mp4", ".gif", ".png"])
-def test_no_events_are_an_input_error(
-    tmp_path: Path, extension: str, folder_is_clean: Callable[[], bool]
-) -> None:
+def test_no_events_are_an_input_error(tmp_path, extension, folder_is_clean):
     with pytest.raises(InputError, match="holds no events"):
         render_events(EventStream.empty(SIZE), tmp_path / f"out{extension}")
     assert folder_is_clean()
 
 
 @pytest.mark.parametrize("extension", [".mp4", ".gif", ".png", ".html"])
-def test_one_event_can_be_shown_in_every_way(tmp_path: Path, extension: str) -> None:
+def test_one_event_can_be_shown_in_every_way(tmp_path, extension):
     event = EventStream.from_columns([3], [4], [10**12], [1], size=SIZE)
     path = render_events(event, tmp_path / f"out{extension}")
     assert path.stat().st_size > 300
 
 
 @pytest.mark.parametrize("extension", [".mp4", ".png"])
-def test_the_video_is_shown_on_the_left(tmp_path: Path, extension: str) -> None:
+def test_the_video_is_shown_on_the_left(tmp_path, extension):
     green = np.zeros((3, *SIZE.shape, 3), dtype=np.uint8)
     green[..., 1] = 200
     path = render_events(
@@ -99,7 +94,7 @@ def test_the_video_is_shown_on_the_left(tmp_path: Path, extension: str) -> None:
         ({"show": "depth"}, "show is 'depth'"),
     ],
 )
-def test_options_of_no_choice_are_refused(options: dict[str, object], message: str) -> None:
+def test_options_of_no_choice_are_refused(options, message):
     with pytest.raises(ConfigError, match=message):
         RenderConfig(**options)
 
@@ -114,9 +109,7 @@ def moving_stripes() -> EventStream:
 
 @pytest.mark.parametrize("show", ["warped", "flow"])
 @pytest.mark.parametrize("extension", [".png", ".mp4", ".gif"])
-def test_motion_is_shown_in_place_of_the_events(
-    tmp_path: Path, extension: str, show: Literal["warped", "flow"]
-) -> None:
+def test_motion_is_shown_in_place_of_the_events(tmp_path, extension, show):
     kinds: tuple[Literal["events"], Literal["warped", "flow"]] = ("events", show)
     plain, path = (
         render_events(
@@ -135,7 +128,7 @@ def test_motion_is_shown_in_place_of_the_events(
     assert coloured < was / 2 if show == "warped" else coloured > 2 * was
 
 
-def test_a_page_cannot_show_motion(tmp_path: Path, folder_is_clean: Callable[[], bool]) -> None:
+def test_a_page_cannot_show_motion(tmp_path, folder_is_clean):
     with pytest.raises(ConfigError, match=r"show is flow; a page shows events: render to \.mp4"):
         render_events(moving_stripes(), tmp_path / "out.html", config=RenderConfig(show="flow"))
     assert folder_is_clean()

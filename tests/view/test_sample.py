@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import cv2
 import numpy as np
 import pytest
@@ -43,7 +41,7 @@ def test_an_event_is_in_the_bin_whose_share_of_the_time_it_is_in(times, start, s
 
 
 @pytest.mark.parametrize("packet_events", [1, 7, 333, 5000])
-def test_packet_sizes_do_not_change_the_sample(packet_events: int) -> None:
+def test_packet_sizes_do_not_change_the_sample(packet_events):
     events = ramp(5000)
     whole, cut = UniformSample(SIZE, limit=400), UniformSample(SIZE, limit=400)
     whole.append(events)
@@ -53,7 +51,7 @@ def test_packet_sizes_do_not_change_the_sample(packet_events: int) -> None:
     assert cut.events().equals(whole.events())
 
 
-def test_the_sample_is_uniform_over_the_recording() -> None:
+def test_the_sample_is_uniform_over_the_recording():
     sample = UniformSample(SIZE, limit=4000)
     for start in range(0, 200_000, 10_000):
         sample.append(ramp(200_000)[start : start + 10_000])
@@ -67,9 +65,7 @@ def test_the_sample_is_uniform_over_the_recording() -> None:
     start_us=st.integers(0, 10**15),
     cut=st.integers(0, 40),
 )
-def test_the_rate_curve_counts_every_event_in_its_bin(
-    gaps: list[int], start_us: int, cut: int
-) -> None:
+def test_the_rate_curve_counts_every_event_in_its_bin(gaps, start_us, cut):
     times = start_us + np.cumsum(gaps)
     polarity = np.arange(len(times)) % 2
     events = EventStream(times * 0, times * 0, times, polarity, SIZE)
@@ -92,7 +88,7 @@ def frame(index: int, width: int = 8) -> Frame:
 
 
 @given(count=st.integers(1, 90), limit=st.integers(2, 7))
-def test_kept_frames_are_evenly_spread_and_never_too_many(count: int, limit: int) -> None:
+def test_kept_frames_are_evenly_spread_and_never_too_many(count, limit):
     strip = FrameStrip(limit=limit)
     for index in range(count):
         strip.append(frame(index))
@@ -101,13 +97,13 @@ def test_kept_frames_are_evenly_spread_and_never_too_many(count: int, limit: int
     assert strip.seen == count
 
 
-def test_intermediate_frames_are_left_out() -> None:
+def test_intermediate_frames_are_left_out():
     strip = FrameStrip()
     strip.append(Frame(np.zeros((6, 8)), 5, is_source=False))
     assert (strip.seen, strip.images) == (0, [])
 
 
-def test_large_frames_are_made_small_and_keep_their_shape() -> None:
+def test_large_frames_are_made_small_and_keep_their_shape():
     strip = FrameStrip()
     strip.append(Frame(np.full((600, 2 * STRIP_WIDTH, 3), 90, dtype=np.uint8), 0))
     image = cv2.imdecode(np.frombuffer(strip.images[0][1], np.uint8), cv2.IMREAD_COLOR)

@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 from fractions import Fraction
 from pathlib import Path
 
@@ -37,9 +35,7 @@ def read_video(path: Path) -> tuple[list[int], np.ndarray, av.container.InputCon
     return times, np.stack([frame.to_ndarray(format="rgb24") for frame in frames]), container
 
 
-def test_mp4_times_are_the_source_frames_times_to_the_microsecond(
-    tmp_path: Path, steps: Steps
-) -> None:
+def test_mp4_times_are_the_source_frames_times_to_the_microsecond(tmp_path, steps):
     times, _, container = read_video(write_video(tmp_path / "out.mp4", steps))
     source = [frame.t_us for frame, _ in steps if frame.is_source]
     assert times == [t - source[0] for t in source[:-1]]
@@ -49,7 +45,7 @@ def test_mp4_times_are_the_source_frames_times_to_the_microsecond(
     assert stream.codec_context.colorspace == 1, "tagged BT.709"
 
 
-def test_irregular_frame_times_are_kept(tmp_path: Path) -> None:
+def test_irregular_frame_times_are_kept(tmp_path):
     times = [1_000, 1_007, 40_000, 1_040_000, 1_040_001]
     pixels = np.zeros(SIZE.shape, dtype=np.uint8)
     steps = [(Frame(pixels, t), EventStream.empty(SIZE)) for t in times]
@@ -57,16 +53,12 @@ def test_irregular_frame_times_are_kept(tmp_path: Path) -> None:
     assert shown == [t - 1_000 for t in times[:-1]]
 
 
-def test_the_index_lies_in_front_so_that_browsers_start_at_once(
-    tmp_path: Path, steps: Steps
-) -> None:
+def test_the_index_lies_in_front_so_that_browsers_start_at_once(tmp_path, steps):
     content = write_video(tmp_path / "out.mp4", steps).read_bytes()
     assert 0 < content.index(b"moov") < content.index(b"mdat")
 
 
-def test_events_of_intermediate_frames_count_for_the_next_source_frame(
-    tmp_path: Path, steps: Steps
-) -> None:
+def test_events_of_intermediate_frames_count_for_the_next_source_frame(tmp_path, steps):
     dense = write_video(tmp_path / "dense.mp4", steps)
     merged: Steps = []
     waiting: list[EventStream] = [EventStream.empty(SIZE)]
@@ -79,7 +71,7 @@ def test_events_of_intermediate_frames_count_for_the_next_source_frame(
     assert np.array_equal(read_video(dense)[1], read_video(plain)[1])
 
 
-def test_gif_times_are_rounded_but_do_not_drift(tmp_path: Path, steps: Steps) -> None:
+def test_gif_times_are_rounded_but_do_not_drift(tmp_path, steps):
     times, images, _ = read_video(write_video(tmp_path / "out.gif", steps))
     source = [frame.t_us for frame, _ in steps if frame.is_source]
     exact = [t - source[0] for t in source[:-1]]
@@ -90,6 +82,6 @@ def test_gif_times_are_rounded_but_do_not_drift(tmp_path: Path, steps: Steps) ->
 
 
 @pytest.mark.parametrize("extension", [".mp4", ".gif"])
-def test_one_frame_gives_a_video_of_one_image(tmp_path: Path, steps: Steps, extension: str) -> None:
+def test_one_frame_gives_a_video_of_one_image(tmp_path, steps, extension):
     path = write_video(tmp_path / f"out{extension}", steps[:1])
     assert len(read_video(path)[0]) == 1

@@ -1,7 +1,5 @@
 """A page as a browser opens it: by the printed address, then with the cookie that it left."""
 
-from __future__ import annotations
-
 import urllib.request
 from collections.abc import Callable
 from http.client import HTTPResponse

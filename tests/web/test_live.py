@@ -1,7 +1,5 @@
 """Live events: none waits in a queue, recordings are whole, the page asks and leaves."""
 
-from __future__ import annotations
-
 import base64
 import json
 import queue

@@ -1,7 +1,5 @@
 """The local page, asked over HTTP as its script asks it, and as strangers would."""
 
-from __future__ import annotations
-
 import contextlib
 import http.client
 import json

@@ -1,7 +1,5 @@
 """Alignment by a tiny random CLIP of the real format, of our events and of recorded streams."""
 
-from __future__ import annotations
-
 import json
 import os
 from pathlib import Path
@@ -69,7 +67,7 @@ def recordings(events: list[EventStream], texts: list[str]) -> list[TextRecordin
     ]
 
 
-def test_vectors_are_those_of_the_whole_model(clip: Path) -> None:
+def test_vectors_are_those_of_the_whole_model(clip):
     texts = ["a red cat walks", "dogs " * 40]
     rng = np.random.default_rng(3)
     images = [rng.integers(0, 256, (32, 32, 3), dtype=np.uint8) for _ in range(3)]
@@ -87,7 +85,7 @@ def test_vectors_are_those_of_the_whole_model(clip: Path) -> None:
     np.testing.assert_allclose(model.embed_texts(texts), outputs.text_embeds, atol=1e-5)
 
 
-def test_the_score_is_that_of_the_similarities_of_transformers(clip: Path, data: Path) -> None:
+def test_the_score_is_that_of_the_similarities_of_transformers(clip, data):
     samples = list_samples(data / "events")["texvent"]
     draw = DrawnEvents(images=2, events_per_image=15)
     report = align({"ours": samples}, draw, ClipModel(clip))["ours"]
@@ -112,7 +110,7 @@ def test_the_score_is_that_of_the_similarities_of_transformers(clip: Path, data:
     assert (report.recordings, report.texts) == (3, 3)
 
 
-def test_recordings_of_one_text_are_right_with_the_same_text(clip: Path) -> None:
+def test_recordings_of_one_text_are_right_with_the_same_text(clip):
     model, size = ClipModel(clip), SensorSize(32, 32)
     rng = np.random.default_rng(1)
     x, y, t = rng.integers(0, 32, 200), rng.integers(0, 32, 200), np.arange(200)
@@ -130,9 +128,7 @@ def run(clip: Path, out: Path, *words: str) -> Any:
     return json.loads(out.read_text())
 
 
-def test_ours_and_recorded_streams_rank_the_captions_that_both_have(
-    clip: Path, data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_ours_and_recorded_streams_rank_the_captions_that_both_have(clip, data, tmp_path, capsys):
     real = ["--n-imagenet", str(data / "N"), "--captions", str(data / "nt" / "captions.jsonl")]
     both = run(clip, tmp_path / "both.json", str(data / "events"), *real)
     said = capsys.readouterr().out

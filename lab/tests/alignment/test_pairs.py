@@ -1,7 +1,5 @@
 """Simulated events beside recorded ones: which are compared, and what is said and kept."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 
@@ -34,7 +32,7 @@ def recording(id: str, *parts: EventStream) -> TextRecording:
     return TextRecording(id, f"text of {id}", lambda: whole, f"key of {id}")
 
 
-def test_parts_as_long_as_the_stream_are_compared_on_its_clock_and_by_id() -> None:
+def test_parts_as_long_as_the_stream_are_compared_on_its_clock_and_by_id():
     streams = [recording("a", events(1, 7_000)), recording("b", events(2))]
     # The stream itself, later, four times: whichever evenly spread parts are taken, they are it.
     repeated = [events(1, 50_000 * number) for number in range(4)]
@@ -50,7 +48,7 @@ def test_parts_as_long_as_the_stream_are_compared_on_its_clock_and_by_id() -> No
     assert empty["stpp"] == 0.0
 
 
-def test_means_over_pairs_have_intervals() -> None:
+def test_means_over_pairs_have_intervals():
     rows = [{"variant": "v", "stpp": 0.1 * n, f"stpp{OTHER}": 0.0} for n in range(7)]
     text = pairs_table(rows, [Stpp()]).splitlines()[2]
     assert text.startswith("| v | 7 | 0.3000 [0.")
@@ -85,9 +83,7 @@ def nt(folder: Path, *more: str) -> int:
 
 
 @pytest.mark.long
-def test_the_command_scores_a_data_set_and_keeps_every_pair(
-    made: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_command_scores_a_data_set_and_keeps_every_pair(made, capsys):
     capsys.readouterr()
     assert nt(made, "--events", str(made / "whole")) == 0
     assert "| texvent | 1 |" in capsys.readouterr().out
@@ -99,9 +95,7 @@ def test_the_command_scores_a_data_set_and_keeps_every_pair(
 
 
 @pytest.mark.torch
-def test_eqs_of_own_weights_is_printed_and_kept_with_its_controls(
-    made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_eqs_of_own_weights_is_printed_and_kept_with_its_controls(made, tmp_path, capsys):
     torch = pytest.importorskip("torch")
     from tests.metrics.rvt.rvt_files import trained_here
 
@@ -131,9 +125,7 @@ def test_eqs_of_own_weights_is_printed_and_kept_with_its_controls(
         ([], "no captions; give --captions, or --imagenet and --model"),
     ],
 )
-def test_what_cannot_be_scored_is_said_in_one_line(
-    made: Path, words: list[str], complaint: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_what_cannot_be_scored_is_said_in_one_line(made, words, complaint, capsys):
     if "network" in complaint:
         pytest.importorskip("torch")
     capsys.readouterr()
@@ -143,9 +135,7 @@ def test_what_cannot_be_scored_is_said_in_one_line(
     assert len(said.splitlines()) == 1
 
 
-def test_captions_of_no_stream_are_named_before_the_streams_are_read(
-    made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_captions_of_no_stream_are_named_before_the_streams_are_read(made, tmp_path, capsys):
     text = (made / "c.jsonl").read_text() + '\n{"id": "other", "caption": "x"}'
     (tmp_path / "more.jsonl").write_text(text)
     assert (

@@ -1,7 +1,5 @@
 """What is scored: samples of a data set, recorded streams, and the images made of them."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 
@@ -53,7 +51,7 @@ def stream(count: int, size: SensorSize) -> EventStream:
 
 
 @pytest.mark.long
-def test_samples_come_by_variant_with_their_prompts_and_events(folder: Path) -> None:
+def test_samples_come_by_variant_with_their_prompts_and_events(folder):
     found = list_samples(folder)
     assert {name: len(one) for name, one in found.items()} == {"paper": 2, "esim": 4}
     for one in found["paper"]:
@@ -71,7 +69,7 @@ def test_samples_come_by_variant_with_their_prompts_and_events(folder: Path) -> 
     assert len(list_samples(folder, split="test")["esim"]) == 2
 
 
-def test_recorded_streams_are_read_at_their_size(tmp_path: Path) -> None:
+def test_recorded_streams_are_read_at_their_size(tmp_path):
     write_n_imagenet(tmp_path, {WNIDS[0]: {1: 3_000}})
     caption = Captioned(id=stream_id(1), caption="a tench", label=WNIDS[0], seed=1)
     (one,) = list_streams(tmp_path, [caption])
@@ -83,7 +81,7 @@ def test_recorded_streams_are_read_at_their_size(tmp_path: Path) -> None:
         list_streams(tmp_path, [missing])
 
 
-def test_sources_are_scored_on_the_ids_they_share() -> None:
+def test_sources_are_scored_on_the_ids_they_share():
     def some(*ids: str) -> list[TextRecording]:
         return [TextRecording(id, id, lambda: EventStream.empty(SensorSize(1, 1))) for id in ids]
 
@@ -100,9 +98,7 @@ def test_sources_are_scored_on_the_ids_they_share() -> None:
 
 @pytest.mark.parametrize(("count", "expected"), [(0, [0]), (50, [50]), (250, [100, 100]),
                                                  (1000, [100] * 4)])  # fmt: skip
-def test_runs_hold_the_same_number_of_events_spread_over_the_recording(
-    count: int, expected: list[int]
-) -> None:
+def test_runs_hold_the_same_number_of_events_spread_over_the_recording(count, expected):
     events = stream(count, SensorSize(20, 10))
     runs = DrawnEvents(images=4, events_per_image=100).runs(events)
     assert [len(run) for run in runs] == expected
@@ -111,7 +107,7 @@ def test_runs_hold_the_same_number_of_events_spread_over_the_recording(
         assert runs[-1].t[-1] == count - 1
 
 
-def test_events_are_drawn_on_white_also_where_there_are_none() -> None:
+def test_events_are_drawn_on_white_also_where_there_are_none():
     size = SensorSize(8, 6)
     (image,) = DrawnEvents()(EventStream([2, 3], [1, 1], [0, 5], [1, 0], size))
     assert image.shape == (6, 8, 3)

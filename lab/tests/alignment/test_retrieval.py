@@ -1,7 +1,5 @@
 """Retrieval on matrices whose ranks are known by hand, and what holds for every matrix."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

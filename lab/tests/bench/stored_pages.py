@@ -3,8 +3,6 @@
 python -m lab.tests.bench.stored_pages    # writes them anew, after a result or a page changed
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 from pathlib import Path
@@ -30,13 +28,17 @@ NAMES = sorted(
 )
 
 
-def digests(name: str) -> dict[str, str]:
-    """File of the page of a stored result → its digest; and that of the result."""
+def stored(name: str) -> dict[str, bytes]:
+    """Files of the page of a stored result; and the result."""
     document = read_document(RESULTS / f"{name}.json.gz")
     files = page_files(document, f"{name}.json.gz")
-    files["result"] = json.dumps(document, sort_keys=True).encode()
+    return files | {"result": json.dumps(document, sort_keys=True).encode()}
+
+
+def digests(files: dict[str, bytes]) -> dict[str, str]:
+    """File → its digest."""
     return {file: hashlib.sha256(content).hexdigest()[:12] for file, content in files.items()}
 
 
 if __name__ == "__main__":
-    PAGES.write_text(json.dumps({name: digests(name) for name in NAMES}) + "\n")
+    PAGES.write_text(json.dumps({name: digests(stored(name)) for name in NAMES}) + "\n")

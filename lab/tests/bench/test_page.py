@@ -15,19 +15,16 @@ from texvent_lab.bench.page import page_files
 from texvent_lab.bench.paper.published_tables import TABLES
 from texvent_lab.commands.bench import fidelity
 
-from .stored_pages import NAMES, PAGES, RESULTS, digests
+from .stored_pages import NAMES, PAGES, RESULTS, digests, stored
 from .synthetic_report import synthetic_report
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", NAMES)
 def test_every_stored_result_has_the_page_and_chart_that_it_had(name):
     """Unless it is another result: then `stored_pages` writes the digests anew."""
-    assert digests(name) == json.loads(PAGES.read_text())[name]
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_every_stored_result_has_a_page_with_its_chart(name):
-    files = page_files(read_document(RESULTS / f"{name}.json.gz"), f"{name}.json.gz")
+    files = stored(name)
+    assert digests(files) == json.loads(PAGES.read_text())[name]
     page = files[f"{name}.md"].decode()
     assert (f"({name}.svg)" in page) == (f"{name}.svg" in files)
     assert "commit: " in page

@@ -1,7 +1,5 @@
 """Benchmarks that keep their steps, disturbed between two runs, end as undisturbed ones."""
 
-from __future__ import annotations
-
 import zipfile
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -136,9 +134,5 @@ def runs(
 
 @pytest.mark.long
 @pytest.mark.parametrize("disturb", DISTURBANCES)
-def test_a_benchmark_ends_as_an_undisturbed_one_or_says_why_not(
-    runs: Runs,
-    disturb: Callable[[Runs, pytest.CaptureFixture[str]], None],
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_a_benchmark_ends_as_an_undisturbed_one_or_says_why_not(runs, disturb, capsys):
     disturb(runs, capsys)

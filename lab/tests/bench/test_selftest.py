@@ -156,6 +156,7 @@ def test_the_image_has_a_number_for_every_metric_and_perturbation():
     assert {"−50", "–", "stpp", *row.z} <= {*words}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", PUBLISHED)
 def test_every_metric_keeps_its_row(name, recordings):
     """The perturbation whose verdict is closest to changing still has its published value."""

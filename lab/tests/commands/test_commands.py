@@ -1,7 +1,5 @@
 """Commands of the laboratory as a user of `texvent` meets them."""
 
-from __future__ import annotations
-
 import pytest
 
 from texvent._registry import Registry

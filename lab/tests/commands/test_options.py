@@ -1,7 +1,5 @@
 """Every option of the commands that work for hours reaches the work, and progress is told."""
 
-from __future__ import annotations
-
 import dataclasses
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The benchmark of the GPU backend runs to its end, here at a size that the interpreter can do."""
 
-from __future__ import annotations
-
 import json
 import sys
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Prompts for grading: strips, sums of grades."""
 
-from __future__ import annotations
-
 import csv
 import json
 import sys

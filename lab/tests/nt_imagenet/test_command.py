@@ -1,7 +1,5 @@
 """`texvent nt-imagenet` with captions made elsewhere: to events of our own, and back."""
 
-from __future__ import annotations
-
 import csv
 import json
 from pathlib import Path
@@ -51,7 +49,7 @@ def report(folder: Path) -> Any:
     return json.loads((folder / "report.json").read_text())
 
 
-def test_what_is_written_holds_ids_captions_and_counts_alone(built: Path) -> None:
+def test_what_is_written_holds_ids_captions_and_counts_alone(built):
     assert {path.name for path in built.iterdir()} == {
         "captions.jsonl",
         "streams.csv",
@@ -69,7 +67,7 @@ def test_what_is_written_holds_ids_captions_and_counts_alone(built: Path) -> Non
     assert Path(streams[0]["stream"]) == Path(WNIDS[0], f"{stream_id(1)}.npz")
 
 
-def test_the_report_counts_problems_and_leaves_nothing_out(built: Path) -> None:
+def test_the_report_counts_problems_and_leaves_nothing_out(built):
     found = report(built)
     assert found["streams"]["incomplete_classes"] == {WNIDS[0]: 3, WNIDS[1]: 2}
     captions = found["captions"]
@@ -81,9 +79,7 @@ def test_the_report_counts_problems_and_leaves_nothing_out(built: Path) -> None:
     assert found["streams"]["median_speed_px_s"] is None  # noise has no edges
 
 
-def test_the_rows_of_table_10_are_printed_with_the_light_of_the_images(
-    data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_rows_of_table_10_are_printed_with_the_light_of_the_images(data, tmp_path, capsys):
     for wnid, numbers in ((WNIDS[0], (1, 2, 4)), (WNIDS[1], (3, 5))):
         write_images(tmp_path / "val", numbers, wnid)
     assert nt(data, tmp_path / "nt", "--imagenet", str(tmp_path / "val")) == 1
@@ -97,8 +93,8 @@ def test_the_rows_of_table_10_are_printed_with_the_light_of_the_images(
 
 
 def test_the_same_command_twice_gives_the_same_files_and_keeps_the_specification(
-    data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+    data, tmp_path, capsys
+):
     out = tmp_path / "nt"
     nt(data, out)
     before = {path: path.read_bytes() for path in out.iterdir()}
@@ -113,9 +109,7 @@ def test_the_same_command_twice_gives_the_same_files_and_keeps_the_specification
 
 
 @pytest.mark.long
-def test_the_captions_become_events_whose_clips_are_known_by_their_ids(
-    built: Path, tmp_path: Path
-) -> None:
+def test_the_captions_become_events_whose_clips_are_known_by_their_ids(built, tmp_path):
     specification = built / "specification.toml"
     small = specification.read_text().replace('"640x480" ', '"32x24"\nduration = 0.1')
     quick = built / "quick.toml"

@@ -1,7 +1,5 @@
 """Captions by a tiny random LLaVA of the real format."""
 
-from __future__ import annotations
-
 import json
 import os
 from pathlib import Path
@@ -48,9 +46,7 @@ def captions(out: Path) -> dict[str, str]:
     return {one.id: one.caption for one in read_captioned(out / "captions.jsonl")}
 
 
-def test_a_caption_is_the_answer_of_the_model_to_the_papers_question(
-    data: Path, tmp_path: Path
-) -> None:
+def test_a_caption_is_the_answer_of_the_model_to_the_papers_question(data, tmp_path):
     (tmp_path / "some.csv").write_text(f"id,caption\n{stream_id(2)},A tench.\n")
     assert nt(data, tmp_path / "nt", "--captions", str(tmp_path / "some.csv")) == 0
     found = captions(tmp_path / "nt")
@@ -67,9 +63,7 @@ def test_a_caption_is_the_answer_of_the_model_to_the_papers_question(
     assert len(set(found.values())) == 3
 
 
-def test_a_stopped_run_goes_on_and_captions_of_two_models_are_not_mixed(
-    data: Path, tmp_path: Path
-) -> None:
+def test_a_stopped_run_goes_on_and_captions_of_two_models_are_not_mixed(data, tmp_path):
     assert nt(data, tmp_path / "nt") == 0
     kept = tmp_path / "nt" / MADE
     made = json.loads(kept.read_text())
@@ -84,8 +78,8 @@ def test_a_stopped_run_goes_on_and_captions_of_two_models_are_not_mixed(
 
 
 def test_a_damaged_image_costs_its_caption_alone_and_a_missing_one_is_named_before_the_model(
-    data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+    data, tmp_path, capsys
+):
     write_images(tmp_path / "val", (1, 2, 3))
     image = tmp_path / "val" / WNIDS[0] / f"{stream_id(2)}.JPEG"
     image.write_bytes(b"damaged")

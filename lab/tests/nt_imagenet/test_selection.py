@@ -1,7 +1,5 @@
 """Classes and streams chosen by the paper's rules, from files as N-ImageNet has them."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 
@@ -26,7 +24,7 @@ def n_imagenet(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return write_n_imagenet(tmp_path_factory.mktemp("data") / "N_Imagenet", COUNTS)
 
 
-def test_streams_in_range_are_taken_in_order_of_their_ids(n_imagenet: Path) -> None:
+def test_streams_in_range_are_taken_in_order_of_their_ids(n_imagenet):
     chosen = select_streams(n_imagenet, WNIDS[:2], per_class=2)
     assert [one.id for one in chosen.streams] == [stream_id(n) for n in (1, 3, 5, 7)]
     assert [one.events for one in chosen.streams] == [3_500, 170_000, 4_000, 3_000]
@@ -37,9 +35,7 @@ def test_streams_in_range_are_taken_in_order_of_their_ids(n_imagenet: Path) -> N
     assert chosen.incomplete(3) == {wnid: 2 for wnid in WNIDS[:2]}
 
 
-def test_the_first_classes_in_order_of_their_ids_are_taken_unless_named(
-    n_imagenet: Path, tmp_path: Path
-) -> None:
+def test_the_first_classes_in_order_of_their_ids_are_taken_unless_named(n_imagenet, tmp_path):
     (n_imagenet / "extracted_val" / "notes.txt").touch()
     assert choose_classes(n_imagenet, 2) == WNIDS[:2]
     listed = tmp_path / "classes.txt"
@@ -47,7 +43,7 @@ def test_the_first_classes_in_order_of_their_ids_are_taken_unless_named(
     assert choose_classes(n_imagenet, 2, listed) == (WNIDS[2], WNIDS[0])
 
 
-def test_a_damaged_file_costs_that_stream_alone(tmp_path: Path) -> None:
+def test_a_damaged_file_costs_that_stream_alone(tmp_path):
     folder = write_n_imagenet(tmp_path, {WNIDS[0]: {1: 3_000, 2: 3_000}})
     path = folder / "extracted_val" / WNIDS[0] / f"{stream_id(1)}.npz"
     path.write_bytes(path.read_bytes()[:2_000])
@@ -56,7 +52,7 @@ def test_a_damaged_file_costs_that_stream_alone(tmp_path: Path) -> None:
     assert list(chosen.unreadable) == [stream_id(1)]
 
 
-def test_speed_is_that_of_an_edge_in_any_direction() -> None:
+def test_speed_is_that_of_an_edge_in_any_direction():
     size = SensorSize(40, 30)
     y, x = np.indices(size.shape)
     for dx, dy in ((200.0, 0.0), (0.0, -150.0), (90.0, 120.0)):

@@ -1,7 +1,5 @@
 """Tiny copies of N-ImageNet in its real layout."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Batches are drawn by epoch and sample; what a worker process refuses is said in one line."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The order of an epoch: every sample once, the same everywhere, another in every epoch."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from texvent_lab.train.schedule import epoch_order

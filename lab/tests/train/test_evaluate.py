@@ -1,7 +1,5 @@
 """Scores of trained weights: equal to those of training, and refused where they do not fit."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 
@@ -30,7 +28,7 @@ def evaluate(folder: Path, *words: str, specification: str = "bars.toml") -> int
     return main(["evaluate", "classification", *paths, "--device", "cpu", *words])
 
 
-def test_the_scores_are_those_of_the_best_epoch(trained: Path) -> None:
+def test_the_scores_are_those_of_the_best_epoch(trained):
     assert evaluate(trained, "-o", str(trained / "scores.json")) == 0
     told = json.loads((trained / "run" / "history.json").read_text())
     best = max(told["epochs"], key=lambda row: row["accuracy"])
@@ -52,7 +50,7 @@ def test_the_scores_are_those_of_the_best_epoch(trained: Path) -> None:
     assert sum(is_right) / 8 == best["accuracy"]
 
 
-def test_other_samples_need_no_training_split(trained: Path) -> None:
+def test_other_samples_need_no_training_split(trained):
     (trained / "other.toml").write_text(
         'data = {folder = "bars", split = "no such", validation_split = "train"}\n'
     )
@@ -86,9 +84,7 @@ def make_infinite(path: Path) -> None:
         (Path.unlink, "there is no weights file"),
     ],
 )
-def test_weights_that_do_not_fit_are_refused_in_one_line(
-    trained: Path, capsys: pytest.CaptureFixture[str], change, message: str
-) -> None:
+def test_weights_that_do_not_fit_are_refused_in_one_line(trained, capsys, change, message):
     change(trained / "run" / "weights.pt")
     assert evaluate(trained) == 2
     error = capsys.readouterr().err

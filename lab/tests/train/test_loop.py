@@ -1,7 +1,5 @@
 """The training loop: scores, files, refusals; `test_resuming.py` has what follows a kill."""
 
-from __future__ import annotations
-
 import json
 import math
 from pathlib import Path
@@ -35,7 +33,7 @@ def weights(folder: Path) -> dict[str, torch.Tensor]:
     return torch.load(folder / "weights.pt", weights_only=True)["state_dict"]
 
 
-def test_a_small_network_learns_and_its_files_say_how(specification: Path, tmp_path: Path) -> None:
+def test_a_small_network_learns_and_its_files_say_how(specification, tmp_path):
     state = train_from_file(ClassificationConfig, specification, tmp_path / "run", CPU)
     assert state.rows[-1]["accuracy"] == 1.0
     assert state.rows[-1]["training loss"] < state.rows[0]["training loss"]
@@ -48,7 +46,7 @@ def test_a_small_network_learns_and_its_files_say_how(specification: Path, tmp_p
         torch.testing.assert_close(tensor, state.best[name], rtol=0, atol=0)
 
 
-def test_workers_change_nothing_and_another_seed_does(specification: Path, tmp_path: Path) -> None:
+def test_workers_change_nothing_and_another_seed_does(specification, tmp_path):
     train_from_file(ClassificationConfig, specification, tmp_path / "one", CPU)
     train_from_file(
         ClassificationConfig, specification, tmp_path / "two", Hardware(device="cpu", workers=1)
@@ -61,8 +59,8 @@ def test_workers_change_nothing_and_another_seed_does(specification: Path, tmp_p
 
 
 def test_the_rate_falls_and_training_stops_where_nothing_improves(
-    specification: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+    specification, tmp_path, monkeypatch
+):
     specification.write_text(
         'data = {folder = "bars"}\n[schedule]\nepochs = 30\npatience = 1\nreduction = 0.5\n'
         "stop_after = 5\nlearning_rate = 1e-9\n"
@@ -79,13 +77,7 @@ def test_the_rate_falls_and_training_stops_where_nothing_improves(
 
 
 @pytest.mark.parametrize("keep", ["best", "last"])
-def test_the_best_network_is_kept_or_the_last(
-    specification: Path,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-    keep: str,
-) -> None:
+def test_the_best_network_is_kept_or_the_last(specification, tmp_path, monkeypatch, capsys, keep):
     specification.write_text(
         f'data = {{folder = "bars"}}\n[schedule]\nepochs = 3\nkeep = "{keep}"\n'
     )
@@ -111,14 +103,14 @@ def test_the_best_network_is_kept_or_the_last(
     assert f"accuracy {score}" in said
 
 
-def test_the_loss_of_an_epoch_is_the_mean_of_its_batches() -> None:
+def test_the_loss_of_an_epoch_is_the_mean_of_its_batches():
     network, schedule = torch.nn.Linear(1, 1), Schedule()
     losses = (0 * network.weight.sum() + value for value in (1.0, 2.0, 6.0))
     optimizer = schedule.make_optimizer(network)
     assert descend(losses, optimizer, network, where="", schedule=schedule) == 3.0
 
 
-def test_options_of_the_schedule_reach_the_optimiser(specification: Path, tmp_path: Path) -> None:
+def test_options_of_the_schedule_reach_the_optimiser(specification, tmp_path):
     optimizer = Schedule(
         optimizer="adamw", learning_rate=0.1, weight_decay=0.2, amsgrad=True
     ).make_optimizer(torch.nn.Linear(1, 1))
@@ -131,9 +123,7 @@ def test_options_of_the_schedule_reach_the_optimiser(specification: Path, tmp_pa
     assert 0 < sum(moments) < 1e-12
 
 
-def test_a_loss_that_is_no_number_ends_it_with_the_place(
-    specification: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_loss_that_is_no_number_ends_it_with_the_place(specification, tmp_path, monkeypatch):
     cross_entropy = ClassificationTask.loss
     monkeypatch.setattr(
         ClassificationTask, "loss", lambda *words: (cross_entropy(*words) - 1e9).log()
@@ -142,9 +132,7 @@ def test_a_loss_that_is_no_number_ends_it_with_the_place(
         train_from_file(ClassificationConfig, specification, tmp_path / "run", CPU)
 
 
-def test_another_training_is_not_continued(
-    specification: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_another_training_is_not_continued(specification, tmp_path, capsys):
     words = ["train", "classification", str(specification), "-o", str(tmp_path / "run"), "-q"]
     assert main(words) == 0
     specification.write_text(specification.read_text().replace("0.01", "0.02"))

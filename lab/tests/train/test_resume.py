@@ -1,8 +1,6 @@
 """Trainings, disturbed between two runs, end as undisturbed ones, or say why not."""
 
-from __future__ import annotations
-
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -64,9 +62,5 @@ def runs(
 
 
 @pytest.mark.parametrize("disturb", DISTURBANCES)
-def test_a_training_ends_as_an_undisturbed_one_or_says_why_not(
-    runs: Runs,
-    disturb: Callable[[Runs, pytest.CaptureFixture[str]], None],
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_a_training_ends_as_an_undisturbed_one_or_says_why_not(runs, disturb, capsys):
     disturb(runs, capsys)

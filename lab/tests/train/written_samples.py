@@ -1,7 +1,5 @@
 """A labelled data set of moving bars, which a small network learns in seconds, and its weights."""
 
-from __future__ import annotations
-
 import json
 from hashlib import sha256
 from pathlib import Path

@@ -77,6 +77,7 @@ def test_a_sensor_of_other_making_is_found_within_a_tenth(bright):
         assert np.sqrt(np.nanmean(error**2)) < 0.2 * true.std()
 
 
+@pytest.mark.long
 def test_pixels_with_high_thresholds_are_bright_in_the_map(flicker):
     both = np.mean(flicker.thresholds, 0)
     known = both[np.isfinite(both)]
@@ -87,6 +88,7 @@ def test_pixels_with_high_thresholds_are_bright_in_the_map(flicker):
     assert known.std() == pytest.approx(relative, rel=0.2)
 
 
+@pytest.mark.long
 def test_without_the_ratio_thresholds_are_relative(recording):
     flicker = measure_flicker(recording, START, hz=5.0, ratio=None)
     kept = {one.name: one.reason for one in flicker.kept}

@@ -1,7 +1,5 @@
 """`texvent dataset plan`, `make` and `stats`, as a user calls them."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 import subprocess

@@ -1,7 +1,5 @@
 """`texvent convert`, `texvent validate` and `texvent info` as a user meets them."""
 
-from __future__ import annotations
-
 import json
 import shutil
 from pathlib import Path
@@ -30,9 +28,7 @@ def recording(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> EventStream:
     return events
 
 
-def test_a_file_goes_through_every_format_and_comes_back(
-    recording: EventStream, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_file_goes_through_every_format_and_comes_back(recording, capsys):
     assert run("convert", "in.h5", "zero.h5", "--from-zero") == 0
     assert capsys.readouterr().out == "zero.h5: 5,000 events, 346x260\n"
     zero = load("zero.h5")
@@ -45,9 +41,7 @@ def test_a_file_goes_through_every_format_and_comes_back(
     assert capsys.readouterr().out == ""
 
 
-def test_a_file_is_not_merged_with_itself(
-    recording: EventStream, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_file_is_not_merged_with_itself(recording, capsys):
     Path("link.h5").symlink_to("in.h5")
     words = ["in.h5", "two.h5", "--merge", "link.h5"]
     text = refused(capsys, "convert", *words)
@@ -55,16 +49,12 @@ def test_a_file_is_not_merged_with_itself(
     assert not Path("two.h5").exists()
 
 
-def test_what_a_format_cannot_hold_is_refused_and_nothing_is_left(
-    recording: EventStream, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_what_a_format_cannot_hold_is_refused_and_nothing_is_left(recording, capsys):
     assert "holds sensors up to 256x240" in refused(capsys, "convert", "in.h5", "x.bin")
     assert sorted(path.name for path in Path().iterdir()) == ["in.h5"]
 
 
-def test_validate_gives_a_verdict_and_an_exit_code(
-    recording: EventStream, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_validate_gives_a_verdict_and_an_exit_code(recording, capsys):
     assert run("validate", "in.h5") == 0
     assert capsys.readouterr().out.startswith("sound\n")
     shutil.copy("in.h5", "copy.h5")
@@ -82,9 +72,7 @@ def test_validate_gives_a_verdict_and_an_exit_code(
 
 
 @pytest.mark.parametrize(("name", "has_checksums"), [("out.raw", False), ("in.h5", True)])
-def test_validate_says_whether_the_format_notices_damage(
-    recording: EventStream, capsys: pytest.CaptureFixture[str], name: str, has_checksums: bool
-) -> None:
+def test_validate_says_whether_the_format_notices_damage(recording, capsys, name, has_checksums):
     run("convert", "in.h5", "out.raw", "--from-zero")
     capsys.readouterr()
     run("validate", name)

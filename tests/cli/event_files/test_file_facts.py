@@ -1,7 +1,5 @@
 """Options that say how an event file is to be read, in every command that shows or writes one."""
 
-from __future__ import annotations
-
 import dataclasses
 import json
 from itertools import product
@@ -52,7 +50,7 @@ STATED = {
 """Option → a file that cannot be read rightly without it, and its words."""
 
 
-def test_every_option_of_every_command_is_tried() -> None:
+def test_every_option_of_every_command_is_tried():
     assert {one.name for one in dataclasses.fields(FileFactOptions)} <= STATED.keys()
 
 
@@ -61,9 +59,7 @@ def test_every_option_of_every_command_is_tried() -> None:
     # A page tells of repairs.
     sorted({*product(COMMANDS, STATED)} - {("view", "repair")}),
 )
-def test_a_file_read_as_is_stated_is_the_usual_one(
-    command: str, option: str, tmp_path: Path, monkeypatch, capsys
-) -> None:
+def test_a_file_read_as_is_stated_is_the_usual_one(command, option, tmp_path, monkeypatch, capsys):
     random = np.random.default_rng(1)
     count = np.arange(60)
     t, p = np.sort(random.integers(1, 900, 60)) * 1000, random.integers(0, 2, 60)

@@ -1,7 +1,5 @@
 """`texvent batch`: many samples, one run; stopped and taken up again."""
 
-from __future__ import annotations
-
 import io
 import json
 import multiprocessing

@@ -1,7 +1,5 @@
 """`texvent check` prints what it found, and advises options that exist."""
 
-from __future__ import annotations
-
 import re
 
 from texvent.options.values import option_names

@@ -1,7 +1,5 @@
 """The process of a job runs commands that come through a pipe."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

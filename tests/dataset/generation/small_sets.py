@@ -1,7 +1,5 @@
 """Small data sets to make, and what is compared of them."""
 
-from __future__ import annotations
-
 import hashlib
 from contextlib import closing
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Clips of a shard as one batch of a device: the samples that each gives alone on the CPU."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any
@@ -89,9 +87,7 @@ def samples_of(path: Path) -> list[Any]:
     return found
 
 
-def test_a_batch_gives_the_samples_that_clips_give_alone(
-    tmp_path: Path, batches: list[int]
-) -> None:
+def test_a_batch_gives_the_samples_that_clips_give_alone(tmp_path, batches):
     recipe = recipe_of(tmp_path)
     make(recipe, tmp_path / "alone", device="cpu")
     assert batches == []

@@ -1,9 +1,5 @@
 """Estimates of a trial against the data set that is made."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import pytest
 from tests.dataset.generation.small_sets import clips_recipe, make
 
@@ -13,9 +9,7 @@ from texvent.dataset.stored.folder import StoredDataset
 from texvent.runtime.progress import NO_PROGRESS
 
 
-def test_a_trial_of_all_clips_tells_samples_events_and_bytes_of_the_data_set(
-    tmp_path: Path,
-) -> None:
+def test_a_trial_of_all_clips_tells_samples_events_and_bytes_of_the_data_set(tmp_path):
     recipe = clips_recipe(tmp_path, clips=2)
     make(recipe, tmp_path / "out")
     for stage in try_samples(recipe, 2, NO_PROGRESS):

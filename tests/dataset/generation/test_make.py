@@ -1,7 +1,5 @@
 """Shards: the same bytes whoever makes them, resumed after anything, one bad sample harms none."""
 
-from __future__ import annotations
-
 import io
 import json
 import shutil
@@ -47,7 +45,7 @@ def recipe_of(folder: Path = Path(), **changes: Any) -> Recipe:
 
 
 @pytest.mark.long
-def test_processes_and_parts_make_the_bytes_of_one_process(tmp_path: Path) -> None:
+def test_processes_and_parts_make_the_bytes_of_one_process(tmp_path):
     recipe = recipe_of(store_videos=True, options={**SMALL, "samples": 1})
     make(recipe, tmp_path / "one")
     make(recipe, tmp_path / "pool", ProcessEngine(2))
@@ -58,7 +56,7 @@ def test_processes_and_parts_make_the_bytes_of_one_process(tmp_path: Path) -> No
     assert len(one) == 6
 
 
-def test_simulations_of_a_shaken_photo_see_the_same_film(tmp_path: Path) -> None:
+def test_simulations_of_a_shaken_photo_see_the_same_film(tmp_path):
     image = np.random.default_rng(1).integers(0, 255, (24, 32), np.uint8)
     cv2.imwrite(str(tmp_path / "a.png"), image)
     recipe = recipe_of(
@@ -78,7 +76,7 @@ def test_simulations_of_a_shaken_photo_see_the_same_film(tmp_path: Path) -> None
     assert first.equals(second)
 
 
-def test_the_videos_of_variants_are_the_same_and_simulations_differ(cars: Path) -> None:
+def test_the_videos_of_variants_are_the_same_and_simulations_differ(cars):
     records = {name: read_record(cars / name / "train-000000.tar") for name in ("paper", "esim")}
     paper, esim = (record.samples for record in records.values() if record is not None)
     assert [one.clip for one in paper[::2]] == [one.clip for one in esim]
@@ -99,9 +97,7 @@ def test_the_videos_of_variants_are_the_same_and_simulations_differ(cars: Path) 
 
 @pytest.mark.long
 @pytest.mark.parametrize("most_bytes", [40_000, kept_frames.MOST_BYTES])
-def test_variants_that_share_frames_are_what_each_is_alone(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, most_bytes: int
-) -> None:
+def test_variants_that_share_frames_are_what_each_is_alone(tmp_path, monkeypatch, most_bytes):
     monkeypatch.setattr(kept_frames, "MOST_BYTES", most_bytes)
     rendered, render = [], IncrementalRenderer.render
 
@@ -127,7 +123,7 @@ def test_variants_that_share_frames_are_what_each_is_alone(
             assert digests(tmp_path / "all")[shard] == alone
 
 
-def test_another_specification_is_refused_with_the_difference(cars: Path) -> None:
+def test_another_specification_is_refused_with_the_difference(cars):
     with pytest.raises(ConfigError, match="seed was 3, is 4"):
         recipe_of(seed=4).begin(cars)
     other = [{"prompts": ["a dog"], "label": "dog"}]
@@ -135,9 +131,7 @@ def test_another_specification_is_refused_with_the_difference(cars: Path) -> Non
         recipe_of(sources=other, splits={"train": 1.0}).begin(cars)
 
 
-def test_a_folder_of_other_things_and_a_changed_list_are_refused(
-    cars: Path, tmp_path: Path
-) -> None:
+def test_a_folder_of_other_things_and_a_changed_list_are_refused(cars, tmp_path):
     (tmp_path / "note.txt").write_text("mine")
     with pytest.raises(OutputError, match="holds no data set"):
         recipe_of().begin(tmp_path)
@@ -153,7 +147,7 @@ def test_a_folder_of_other_things_and_a_changed_list_are_refused(
         load_recipe(folder)
 
 
-def test_one_bad_video_harms_no_other_and_is_made_later(tmp_path: Path) -> None:
+def test_one_bad_video_harms_no_other_and_is_made_later(tmp_path):
     clip = np.zeros((6, 24, 32), np.uint8)
     clip[:, 4:12, 4:12] = np.arange(6, dtype=np.uint8)[:, None, None] * 40
     for name in ("a", "c"):
@@ -190,9 +184,7 @@ def test_one_bad_video_harms_no_other_and_is_made_later(tmp_path: Path) -> None:
     assert verify(StoredDataset.open(folder)).is_sound
 
 
-def test_a_video_that_cannot_be_read_has_no_state_and_stops_nothing(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_video_that_cannot_be_read_has_no_state_and_stops_nothing(tmp_path, monkeypatch):
     def refuse(*_: Any) -> str:
         raise PermissionError
 
@@ -203,7 +195,7 @@ def test_a_video_that_cannot_be_read_has_no_state_and_stops_nothing(
     assert not provenance.is_replaced(clip, {"seen": "", "contents": ""})
 
 
-def test_videos_of_folders_of_one_name_are_told_apart(tmp_path: Path) -> None:
+def test_videos_of_folders_of_one_name_are_told_apart(tmp_path):
     for number, name in enumerate(("a/x", "b/x", "c/x")):
         (tmp_path / name).mkdir(parents=True)
         np.save(tmp_path / name / "v.npy", np.full((4, 12, 16), number % 2 * 80, np.uint8))
@@ -214,7 +206,7 @@ def test_videos_of_folders_of_one_name_are_told_apart(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("kept", ["all", "noise"])
-def test_events_of_noise_save_no_sample_from_the_filter(tmp_path: Path, kept: str) -> None:
+def test_events_of_noise_save_no_sample_from_the_filter(tmp_path, kept):
     clip = np.zeros((12, 24, 32), np.uint8)
     np.save(tmp_path / "still.npy", clip)
     clip[:, 4:16, 4:16] = np.arange(12, dtype=np.uint8)[:, None, None] * 20
@@ -237,7 +229,7 @@ def test_events_of_noise_save_no_sample_from_the_filter(tmp_path: Path, kept: st
     assert made.events > made.signal_events if kept == "all" else made.events > 100
 
 
-def test_stored_videos_serve_every_variant(tmp_path: Path) -> None:
+def test_stored_videos_serve_every_variant(tmp_path):
     few = {"sources": [{"prompts": ["a red car drives left"]}], "splits": {"train": 1.0},
            "store_videos": True}  # fmt: skip
     folder = tmp_path / "out"
@@ -253,7 +245,7 @@ def test_stored_videos_serve_every_variant(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("start_us", [-5, 0, 2**32 - 10, 2**40])
 @pytest.mark.parametrize("last_us", [20, 2**33])
-def test_events_keep_their_times_wherever_a_clip_begins(start_us: int, last_us: int) -> None:
+def test_events_keep_their_times_wherever_a_clip_begins(start_us, last_us):
     times = [start_us, start_us + 7, start_us + last_us]
     events = EventStream.from_columns([1, 2, 3], [0] * 3, times, [0, 1, 1], size=(8, 6))
     clip = make_sample.SimulatedClip(events, start_us, last_us, 3)
@@ -262,7 +254,7 @@ def test_events_keep_their_times_wherever_a_clip_begins(start_us: int, last_us: 
     assert events_of(columns, events.size).t.tolist() == times
 
 
-def test_options_that_would_change_the_video_belong_to_all() -> None:
+def test_options_that_would_change_the_video_belong_to_all():
     with pytest.raises(ConfigError, match="variant long sets duration, which changes the video"):
         recipe_of(variants={"long": {"duration": 3.0}})
     with pytest.raises(ConfigError, match="unknown option 'durration'"):
@@ -273,7 +265,7 @@ def test_options_that_would_change_the_video_belong_to_all() -> None:
         recipe_of(variants={"videos": {}})
 
 
-def test_a_record_of_before_never_stands_beside_the_new_file(tmp_path: Path) -> None:
+def test_a_record_of_before_never_stands_beside_the_new_file(tmp_path):
     recipe = clips_recipe(tmp_path, clips=8, samples_per_shard=8, variants={"esim": {}})
     bad = tmp_path / "clips" / "0.npy"
     good = bad.read_bytes()
@@ -301,7 +293,7 @@ def test_a_record_of_before_never_stands_beside_the_new_file(tmp_path: Path) -> 
 
 
 @pytest.mark.parametrize("error", [None, InputError("no video")])
-def test_a_sample_has_the_warnings_of_work_beside_it(error: InputError | None) -> None:
+def test_a_sample_has_the_warnings_of_work_beside_it(error):
     def beside() -> None:
         time.sleep(0.1)
         warn("not kept")

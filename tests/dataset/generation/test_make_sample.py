@@ -1,7 +1,5 @@
 """One sample: what ends its simulation, and the picture of its events and boxes."""
 
-from __future__ import annotations
-
 import io
 import json
 

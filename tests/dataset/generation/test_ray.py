@@ -1,7 +1,5 @@
 """A Ray cluster makes the bytes of one process, whatever it loses; an unfit node is named."""
 
-from __future__ import annotations
-
 import os
 import socket
 from collections.abc import Iterator

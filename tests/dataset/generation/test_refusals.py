@@ -3,8 +3,6 @@
 What was made before stays, and the same command goes on when the cause is gone.
 """
 
-from __future__ import annotations
-
 import contextlib
 import io
 import json
@@ -47,9 +45,7 @@ def inputs(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.parametrize("device", ["gpu", "cuda:99"])
-def test_a_device_that_is_not_there_is_one_line_and_no_folder(
-    device: str, inputs: Path, tmp_path: Path
-) -> None:
+def test_a_device_that_is_not_there_is_one_line_and_no_folder(device, inputs, tmp_path):
     done = make(inputs, tmp_path / "set", "--device", device)
     assert done.returncode != 0
     assert len(done.stderr.splitlines()) == 1
@@ -90,7 +86,7 @@ def disk(folder: Path, kilobytes: int) -> Iterator[None]:
         subprocess.run(["umount", str(folder)], check=True)
 
 
-def test_a_full_disk(inputs: Path, tmp_path: Path) -> None:
+def test_a_full_disk(inputs, tmp_path):
     with disk(tmp_path / "disk", 150):
         out = tmp_path / "disk" / "out"
         line = check_one_line(make(inputs, out))
@@ -105,7 +101,7 @@ def test_a_full_disk(inputs: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.long
-def test_files_that_may_not_grow(inputs: Path, tmp_path: Path) -> None:
+def test_files_that_may_not_grow(inputs, tmp_path):
     def limit() -> None:
         resource.setrlimit(resource.RLIMIT_FSIZE, (16_000, 16_000))
 
@@ -117,7 +113,7 @@ def test_files_that_may_not_grow(inputs: Path, tmp_path: Path) -> None:
     assert digests(out) == digests(inputs / "wanted")
 
 
-def test_a_read_only_folder(inputs: Path, tmp_path: Path) -> None:
+def test_a_read_only_folder(inputs, tmp_path):
     with disk(tmp_path / "disk", 8000):
         out = tmp_path / "disk" / "out"
         assert make(inputs, out, "--shards", "1/2").returncode == 0
@@ -130,7 +126,7 @@ def test_a_read_only_folder(inputs: Path, tmp_path: Path) -> None:
         assert digests(out) == digests(inputs / "wanted")
 
 
-def test_another_version_of_texvent(inputs: Path, tmp_path: Path) -> None:
+def test_another_version_of_texvent(inputs, tmp_path):
     out = tmp_path / "out"
     assert make(inputs, out, "--shards", "1/2").returncode == 0
     before, note = digests(out), out / "specification.json"
@@ -145,7 +141,7 @@ def test_another_version_of_texvent(inputs: Path, tmp_path: Path) -> None:
     assert make(inputs, out).returncode == 0
 
 
-def test_a_kill_while_a_folder_is_begun(inputs: Path, tmp_path: Path) -> None:
+def test_a_kill_while_a_folder_is_begun(inputs, tmp_path):
     out = tmp_path / "out"
     out.mkdir()
     (out / "items.jsonl").write_text((inputs / "wanted" / "items.jsonl").read_text()[:40])

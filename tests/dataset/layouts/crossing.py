@@ -1,7 +1,5 @@
 """A sample with a car that drives right, a man who stands, and events anywhere."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any

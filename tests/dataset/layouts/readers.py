@@ -1,7 +1,5 @@
 """Every layout read by the rules of its readers, with NumPy, h5py, OpenCV and JSON alone."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass

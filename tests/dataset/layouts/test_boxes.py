@@ -1,7 +1,5 @@
 """Boxes between labelled instants, by hand."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from tests.dataset.layouts.crossing import CAR, INSTANTS, MAN, crossing_boxes

@@ -1,7 +1,5 @@
 """Files of the layouts, read by the rules of their readers with NumPy and h5py alone."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import cv2

@@ -3,8 +3,6 @@
 tonic is under the GPL: `make test-gpl` alone installs it.
 """
 
-from __future__ import annotations
-
 import importlib
 from pathlib import Path
 
@@ -20,7 +18,7 @@ from texvent.dataset.stored.folder import StoredDataset
 
 
 @pytest.mark.detect
-def test_evlib_loads_rvt_sequences_with_the_histograms_that_it_computes(tmp_path: Path) -> None:
+def test_evlib_loads_rvt_sequences_with_the_histograms_that_it_computes(tmp_path):
     import evlib
     import evlib.data as data
 
@@ -47,7 +45,7 @@ def test_evlib_loads_rvt_sequences_with_the_histograms_that_it_computes(tmp_path
 
 
 @pytest.mark.detect
-def test_evlib_streams_a_data_set_that_was_made_and_exported(tmp_path: Path) -> None:
+def test_evlib_streams_a_data_set_that_was_made_and_exported(tmp_path):
     import evlib.data as data
 
     prompts = [f"a {noun} drives left" for noun in ("car", "bus", "taxi")]
@@ -68,7 +66,7 @@ def test_evlib_streams_a_data_set_that_was_made_and_exported(tmp_path: Path) -> 
 
 
 @pytest.mark.detect
-def test_evlib_reads_and_filters_boxes_of_gen1(tmp_path: Path) -> None:
+def test_evlib_reads_and_filters_boxes_of_gen1(tmp_path):
     import evlib.data as data
     from evlib.eval.prophesee.box_filtering import filter_boxes
 
@@ -80,7 +78,7 @@ def test_evlib_reads_and_filters_boxes_of_gen1(tmp_path: Path) -> None:
 
 
 @pytest.mark.dataset
-def test_pycocotools_indexes_the_images(tmp_path: Path) -> None:
+def test_pycocotools_indexes_the_images(tmp_path):
     from pycocotools.coco import COCO
 
     (tmp_path / "train").mkdir()
@@ -115,9 +113,7 @@ def spiking(request: pytest.FixtureRequest, tmp_path: Path) -> tuple[str, Path, 
 
 
 @pytest.mark.gpl
-def test_tonics_own_loaders_read_every_event(
-    spiking: tuple[str, Path, Path], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_tonics_own_loaders_read_every_event(spiking, monkeypatch):
     name, made, out = spiking
     datasets = importlib.import_module("tonic.datasets")
     loader = {"n-mnist": datasets.NMNIST, "dvs-gesture": datasets.DVSGesture}[name]
@@ -135,7 +131,7 @@ def test_tonics_own_loaders_read_every_event(
 
 
 @pytest.mark.detect
-def test_spikingjellys_own_loaders_read_every_event(spiking: tuple[str, Path, Path]) -> None:
+def test_spikingjellys_own_loaders_read_every_event(spiking):
     from spikingjelly.datasets.dvs128_gesture import DVS128Gesture
     from spikingjelly.datasets.n_mnist import NMNIST
 

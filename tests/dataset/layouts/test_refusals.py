@@ -1,7 +1,5 @@
 """What a layout cannot hold is refused by its numbers, and what it just can is written."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Samples keep their names and seeds, whatever stands beside them in the list."""
 
-from __future__ import annotations
-
 import json
 import re
 from contextlib import nullcontext
@@ -28,28 +26,26 @@ def identities(folder: Path, *prompts: str, seed: int = 0) -> list[tuple[str, st
     return [(sample.key, sample.name, sample.seed) for sample in samples]
 
 
-def test_an_inserted_line_changes_no_other_sample(tmp_path: Path) -> None:
+def test_an_inserted_line_changes_no_other_sample(tmp_path):
     before = identities(tmp_path, "a red car", "a dog")
     after = identities(tmp_path, "a cat", "a red car", "# note", "a dog")
     assert set(before) < set(after)
 
 
-def test_equal_prompts_have_names_and_seeds_of_their_own(tmp_path: Path) -> None:
+def test_equal_prompts_have_names_and_seeds_of_their_own(tmp_path):
     keys, names, seeds = zip(*identities(tmp_path, *["a red car"] * 20), strict=True)
     assert len(set(keys)) == len(set(names)) == len(set(seeds)) == 20
     assert all(name.startswith("a-red-car-") for name in names)
 
 
-def test_another_seed_of_the_batch_gives_other_seeds_and_the_same_names(tmp_path: Path) -> None:
+def test_another_seed_of_the_batch_gives_other_seeds_and_the_same_names(tmp_path):
     first, second = identities(tmp_path, "a dog"), identities(tmp_path, "a dog", seed=1)
     assert first[0][:2] == second[0][:2]
     assert first[0][2] != second[0][2]
 
 
 @given(st.integers(0, 2**63 - 1), st.text(st.characters(codec="utf-8"), min_size=1, max_size=300))
-def test_seeds_and_names_are_always_allowed(
-    tmp_path_factory: pytest.TempPathFactory, seed: int, prompt: str
-) -> None:
+def test_seeds_and_names_are_always_allowed(tmp_path_factory, seed, prompt):
     folder = tmp_path_factory.mktemp("list")
     (folder / "p.jsonl").write_text(f"{json.dumps(prompt)}\n")
     if not prompt.strip():
@@ -59,7 +55,7 @@ def test_seeds_and_names_are_always_allowed(
     (folder / f"{sample.name}.h5").touch()
 
 
-def test_a_seed_and_a_name_in_the_list_count(tmp_path: Path) -> None:
+def test_a_seed_and_a_name_in_the_list_count(tmp_path):
     (tmp_path / "p.csv").write_text("prompt,name,seed\na dog,rex,7\n")
     (sample,) = read_samples([tmp_path / "p.csv"], seed=3)
     assert (sample.name, sample.seed) == ("rex", 7)
@@ -68,7 +64,7 @@ def test_a_seed_and_a_name_in_the_list_count(tmp_path: Path) -> None:
     assert other.key != sample.key
 
 
-def test_folders_and_patterns_give_their_videos(tmp_path: Path) -> None:
+def test_folders_and_patterns_give_their_videos(tmp_path):
     clips = tmp_path / "clips"
     clips.mkdir()
     for name in ("b.mp4", "a.AVI"):
@@ -86,7 +82,7 @@ def test_folders_and_patterns_give_their_videos(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("source", ["", "*", "**/*.mp4"])
-def test_names_say_which_folder_below_the_source_a_video_is_of(tmp_path: Path, source: str) -> None:
+def test_names_say_which_folder_below_the_source_a_video_is_of(tmp_path, source):
     for place in ("left", "right"):
         (tmp_path / place).mkdir()
         (tmp_path / place / "a.mp4").touch()
@@ -103,9 +99,7 @@ VIDEOS, STILLS = ["a.mp4", "b.NPY"], ["a.JPG", "b.png"]
 
 @pytest.mark.parametrize("of_stills", [False, True])
 @pytest.mark.parametrize("places", [[""], ["left", "right"]], ids=["together", "by class"])
-def test_a_folder_gives_what_it_or_the_folders_in_it_hold(
-    tmp_path: Path, of_stills: bool, places: list[str]
-) -> None:
+def test_a_folder_gives_what_it_or_the_folders_in_it_hold(tmp_path, of_stills, places):
     samples, others = (STILLS, VIDEOS) if of_stills else (VIDEOS, [])
     for place in places:
         (tmp_path / place).mkdir(exist_ok=True)
@@ -129,9 +123,7 @@ def test_a_folder_gives_what_it_or_the_folders_in_it_hold(
         (("twice.csv",), r"twice\.csv line 3 and twice\.csv line 2 have one name, 'X'"),
     ],
 )
-def test_mistakes_are_named(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, sources: tuple[str, ...], why: str
-) -> None:
+def test_mistakes_are_named(tmp_path, monkeypatch, sources, why):
     monkeypatch.chdir(tmp_path)
     Path("address.csv").write_text("video\nhttp://me:secret@host/a.mp4?key=secret\n")
     Path("twice.csv").write_text("prompt,name\na car,x\na dog,X\n")
@@ -140,7 +132,7 @@ def test_mistakes_are_named(
     assert "secret" not in str(caught.value)
 
 
-def test_a_recording_is_one_entry_alone_and_among_others(tmp_path: Path) -> None:
+def test_a_recording_is_one_entry_alone_and_among_others(tmp_path):
     bag = "rosbag2_bagfile_information:\n"
     recordings: dict[str, tuple[str, ...]] = {
         "bag": ("metadata.yaml", "a.db3", "a.npy"),
@@ -162,9 +154,7 @@ def test_a_recording_is_one_entry_alone_and_among_others(tmp_path: Path) -> None
     assert one.video == tmp_path / "others/frames"
 
 
-def test_a_picture_beside_the_videos_of_a_class_hides_none_and_patterns_find_each_kind(
-    tmp_path: Path,
-) -> None:
+def test_a_picture_beside_the_videos_of_a_class_hides_none_and_patterns_find_each_kind(tmp_path):
     for place in ("cat/a.mp4", "cat/poster.png", "dog/b.mp4", "bird/0.png"):
         (tmp_path / place).parent.mkdir(exist_ok=True)
         (tmp_path / place).touch()
@@ -186,7 +176,7 @@ PLACES = (
 
 
 @given(st.sets(st.sampled_from(PLACES), min_size=1))
-def test_a_folder_of_anything_is_the_first_kind_of_frames_in_it(chosen: set[str]) -> None:
+def test_a_folder_of_anything_is_the_first_kind_of_frames_in_it(chosen):
     here = sorted(one for one in chosen if "/" not in one and one.endswith("mp4"))
     classes = [one for one in ("cat", "dog") if any(place.startswith(one) for place in chosen)]
     films = [f"{one}/c.mp4" for one in classes if f"{one}/c.mp4" in chosen]

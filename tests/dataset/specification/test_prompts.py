@@ -1,7 +1,5 @@
 """Classes whose prompts do not show what tells them apart are found before any work."""
 
-from __future__ import annotations
-
 import pytest
 
 from texvent.dataset.specification.items import Item

@@ -1,7 +1,5 @@
 """A specification is read as it was meant, or refused in one line that names the place."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 
@@ -43,7 +41,7 @@ min-events = 10
 """
 
 
-def test_every_part_of_a_file_is_read(tmp_path: Path) -> None:
+def test_every_part_of_a_file_is_read(tmp_path):
     (tmp_path / "spec.toml").write_text(WHOLE)
     (tmp_path / "things.txt").write_text("car\n# a comment\ndog\n")
     (tmp_path / "more.csv").write_text("prompt,label,seed\na bus turns,bus,3\na red car,car,\n")
@@ -69,7 +67,7 @@ def test_every_part_of_a_file_is_read(tmp_path: Path) -> None:
     assert items.all[4].seed == 3
 
 
-def test_a_recipe_is_the_same_after_it_was_stored(tmp_path: Path) -> None:
+def test_a_recipe_is_the_same_after_it_was_stored(tmp_path):
     (tmp_path / "spec.toml").write_text(WHOLE)
     (tmp_path / "things.txt").write_text("car\u2028\x85that drives left\n")
     (tmp_path / "more.csv").write_text('prompt,label\n"a\u2029bus",bus\n')
@@ -78,7 +76,7 @@ def test_a_recipe_is_the_same_after_it_was_stored(tmp_path: Path) -> None:
     assert load_recipe(tmp_path / "out") == recipe
 
 
-def test_videos_take_their_class_from_their_folder(tmp_path: Path) -> None:
+def test_videos_take_their_class_from_their_folder(tmp_path):
     for name in ("cat/a.mp4", "dog/b.mp4"):
         (tmp_path / name).parent.mkdir()
         (tmp_path / name).touch()
@@ -88,7 +86,7 @@ def test_videos_take_their_class_from_their_folder(tmp_path: Path) -> None:
     assert items.are_videos
 
 
-def test_words_are_drawn_without_repetition_and_by_the_seed() -> None:
+def test_words_are_drawn_without_repetition_and_by_the_seed():
     source = {"template": "{a} {b}", "words": {"a": list("abcdef"), "b": list("ghijkl")},
               "count": 20}  # fmt: skip
 
@@ -100,7 +98,7 @@ def test_words_are_drawn_without_repetition_and_by_the_seed() -> None:
     assert prompts(0) == prompts(0) != prompts(1)
 
 
-def test_classes_are_words_and_labels() -> None:
+def test_classes_are_words_and_labels():
     source = {"classes": ["cat", "dog"], "template": "a photo of a {class}"}
     items = read_items(specification_from({"name": "x", "sources": [source]}, folder=Path()))
     assert [(item.prompt, item.label) for item in items.all] == [
@@ -129,7 +127,7 @@ ONE = {"name": "x", "sources": [{"prompts": ["a car"]}]}
         ({"filters": {"min_events": 9, "max_events": 3}}, "max_events is 3"),
     ],
 )
-def test_what_is_wrong_is_said_in_one_line(change: dict[str, Any], wanted: str) -> None:
+def test_what_is_wrong_is_said_in_one_line(change, wanted):
     with pytest.raises(ConfigError) as caught:
         specification_from({**ONE, **change}, folder=Path())
     assert wanted in str(caught.value)
@@ -152,9 +150,7 @@ TABLES = [
 
 @pytest.mark.parametrize("names", TABLES, ids=str)
 @pytest.mark.parametrize("value", [5, "x", ["x"], {1: 2}], ids=str)
-def test_what_is_no_table_of_names_is_refused_wherever_there_is_one(
-    names: list[str | int], value: Any
-) -> None:
+def test_what_is_no_table_of_names_is_refused_wherever_there_is_one(names, value):
     tables = {**ONE, **nest(value, *names)} if names else value
     with pytest.raises(ConfigError, match=r"it must be|unknown") as caught:
         specification_from(tables, folder=Path())
@@ -174,7 +170,7 @@ def test_what_is_no_table_of_names_is_refused_wherever_there_is_one(
         ([{"prompts": ["a"]}, {"prompts": ["b"], "label": "c"}], "1 of 2"),
     ],
 )
-def test_sources_that_give_nothing_are_refused(sources: list[Any], wanted: str) -> None:
+def test_sources_that_give_nothing_are_refused(sources, wanted):
     spec = specification_from({"name": "x", "sources": sources}, folder=Path())
     with pytest.raises(InputError, match=wanted.replace("{", "\\{").replace("}", "\\}")):
         read_items(spec)
@@ -225,7 +221,7 @@ REFUSED: dict[str, Refusal] = {
 
 
 @pytest.mark.parametrize("name", REFUSED)
-def test_what_lies_beside_a_mistake_is_read(name: str, tmp_path: Path) -> None:
+def test_what_lies_beside_a_mistake_is_read(name, tmp_path):
     for file, text in FILES.items():
         (tmp_path / file).write_text(text)
     check_refusal(REFUSED[name], tmp_path, tmp_path)

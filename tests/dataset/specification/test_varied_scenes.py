@@ -1,7 +1,5 @@
 """Scenes of a data set: files, fields that vary by lists and ranges, labels of fields."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

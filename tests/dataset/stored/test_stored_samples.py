@@ -1,7 +1,5 @@
 """Stored samples: what was written comes back by number, from any thread, process or copy."""
 
-from __future__ import annotations
-
 import json
 import pickle
 import subprocess

@@ -1,7 +1,5 @@
 """A data set folder of random events, written by the code of `texvent dataset make`."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 from pathlib import Path

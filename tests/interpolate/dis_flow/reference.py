@@ -1,7 +1,5 @@
 """Dense inverse search as it is defined (NumPy, float32), function by function of the kernels."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from texvent.interpolate.dis_flow.definitions import (

@@ -1,7 +1,5 @@
 """Optical flow of frames of any size."""
 
-from __future__ import annotations
-
 import numba
 import numpy as np
 import pytest

@@ -1,7 +1,5 @@
 """Motion of the whole frame that is fitted to what the search has found."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Dense inverse search: hand-made cases for kernels and reference, which give equal bits."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

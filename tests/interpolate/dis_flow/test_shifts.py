@@ -1,7 +1,5 @@
 """Shifts of the whole frame that are larger than the search of patches."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

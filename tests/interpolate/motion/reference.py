@@ -3,8 +3,6 @@
 The kernels `layers`, `paths`, `splat` and `draw` compute the same in float32.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass

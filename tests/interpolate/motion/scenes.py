@@ -1,7 +1,5 @@
 """Small pairs of frames with motion that is known."""
 
-from __future__ import annotations
-
 import numpy as np
 from tests.interpolate.motion.reference import View
 

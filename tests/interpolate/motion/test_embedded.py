@@ -1,7 +1,5 @@
 """Embedded scenes: motion is followed, what it does not tell is rendered."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

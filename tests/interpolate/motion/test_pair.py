@@ -1,7 +1,5 @@
 """Instants between two frames with known motion: against the reference, and by hand."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import floor
 

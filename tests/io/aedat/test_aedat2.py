@@ -1,7 +1,5 @@
 """AEDAT2 of jAER and v2e: layouts that explain every address, noise labels, IMU samples."""
 
-from __future__ import annotations
-
 import struct
 from pathlib import Path
 
@@ -37,9 +35,7 @@ def write(path: Path, header: bytes, address: NDArray[np.int64], t: NDArray[np.i
 
 @pytest.mark.parametrize("header", [V2E, OTHER])
 @pytest.mark.parametrize("size", [(640, 480), (346, 260), (240, 180)])
-def test_the_layout_is_that_in_which_every_address_is_a_pixel(
-    tmp_path: Path, header: bytes, size: tuple[int, int]
-) -> None:
+def test_the_layout_is_that_in_which_every_address_is_a_pixel(tmp_path, header, size):
     events = random_events(300, SensorSize(*size))
     path = write(tmp_path / "e.aedat", header, v2e_addresses(events), events.t)
     assert load(path, size=size).equals(events)
@@ -54,18 +50,14 @@ def test_the_layout_is_that_in_which_every_address_is_a_pixel(
         ("eu.seebetter.ini.chips.davis.DVS240", (240, 180), (179 - 20) << 22 | (239 - 10) << 12),
     ],
 )
-def test_a_dvs_of_another_size_has_not_the_layout_of_a_dvs128(
-    tmp_path: Path, chip: str, size: tuple[int, int], address: int
-) -> None:
+def test_a_dvs_of_another_size_has_not_the_layout_of_a_dvs128(tmp_path, chip, size, address):
     header = f"#!AER-DAT2.0\r\n# AEChip: {chip}\r\n".encode()
     events = load(write(tmp_path / "e.aedat", header, np.array([address]), np.array([7])))
     assert events.size == size
     assert (events.x.tolist(), events.y.tolist(), events.p.tolist()) == ([10], [20], [0])
 
 
-def test_addresses_that_are_no_pixels_are_counted(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_addresses_that_are_no_pixels_are_counted(tmp_path, monkeypatch):
     events = random_events(300, SensorSize(640, 480))
     address = v2e_addresses(events)
     path = write(tmp_path / "e.aedat", OTHER, address, events.t)
@@ -82,13 +74,13 @@ def test_addresses_that_are_no_pixels_are_counted(
         load(path, size=(640, 480))
 
 
-def test_two_layouts_that_fit_are_named(tmp_path: Path) -> None:
+def test_two_layouts_that_fit_are_named(tmp_path):
     path = write(tmp_path / "e.aedat", OTHER, np.array([3 << 12]), np.array([7]))
     with pytest.warns(TexventWarning, match="fit the layouts davis and dvs640; read as davis"):
         assert load(path, size=(640, 480)).x.tolist() == [636]
 
 
-def test_noise_that_v2e_labels_is_read_as_labelled_events(tmp_path: Path) -> None:
+def test_noise_that_v2e_labels_is_read_as_labelled_events(tmp_path):
     events = random_events(300, SensorSize(346, 260))
     noise = np.arange(300) % 3 == 0
     address = v2e_addresses(events) | noise.astype(np.int64) << 10
@@ -98,7 +90,7 @@ def test_noise_that_v2e_labels_is_read_as_labelled_events(tmp_path: Path) -> Non
     assert (found.x == events.x).all()
 
 
-def test_a_record_that_begins_like_a_line_of_the_header_is_a_record(tmp_path: Path) -> None:
+def test_a_record_that_begins_like_a_line_of_the_header_is_a_record(tmp_path):
     address = np.array([0x23 << 24, 0x23 << 24])
     events = load(write(tmp_path / "e.aedat", V2E, address, np.array([7, 10])), size="davis346")
     assert (events.t.tolist(), events.y.tolist()) == ([7, 10], [119, 119])
@@ -119,9 +111,7 @@ EVENT = struct.pack(">2I", 5 << 22 | 7 << 12, 60)
 
 
 @pytest.mark.parametrize("block_bytes", [8, 24, 2**21])
-def test_imu_samples_of_jaer_have_its_units_and_signs(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, block_bytes: int
-) -> None:
+def test_imu_samples_of_jaer_have_its_units_and_signs(tmp_path, monkeypatch, block_bytes):
     monkeypatch.setattr("texvent.io.byte_blocks.BLOCK_BYTES", block_bytes)
     path = tmp_path / "e.aedat"
     second = imu_records((0,) * 7, 90)
@@ -140,7 +130,7 @@ def test_imu_samples_of_jaer_have_its_units_and_signs(
     assert load(path).t.tolist() == [60, 60]
 
 
-def test_what_is_assumed_and_left_out_of_an_imu_is_said(tmp_path: Path) -> None:
+def test_what_is_assumed_and_left_out_of_an_imu_is_said(tmp_path):
     path = tmp_path / "e.aedat"
     path.write_bytes(CHIP + imu_records(FIRST, 50)[8:] + imu_records(FIRST, 70))
     with pytest.warns(TexventWarning) as caught:

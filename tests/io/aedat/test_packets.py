@@ -1,12 +1,9 @@
 """Packets of AEDAT3.1 and AEDAT4 that are not as they seem."""
 
-from __future__ import annotations
-
 import bz2
 import struct
 import tracemalloc
 from collections.abc import Callable
-from pathlib import Path
 
 import lz4.frame
 import numpy as np
@@ -20,9 +17,7 @@ from texvent.io.files import load
 
 
 @pytest.mark.parametrize("turns", [(0, 0, 1, 1), (1, 0, 0, 0), (0, 3, 0, 0)])
-def test_aedat3_counts_of_turns_where_the_time_goes_on_are_damage(
-    tmp_path: Path, turns: tuple[int, ...]
-) -> None:
+def test_aedat3_counts_of_turns_where_the_time_goes_on_are_damage(tmp_path, turns):
     path = tmp_path / "e.aedat"
     packets = [
         struct.pack("<hhiiiiiiII", 1, 1, 8, 4, turn, 1, 1, 1, 1, 1000 * at)
@@ -53,9 +48,7 @@ def packet(count: int, *, is_same: bool = False) -> bytes:
 
 
 @pytest.mark.parametrize("part", [2, 1 << 16])
-def test_lists_of_tables_are_read_a_part_at_a_time(
-    monkeypatch: pytest.MonkeyPatch, part: int
-) -> None:
+def test_lists_of_tables_are_read_a_part_at_a_time(monkeypatch, part):
     monkeypatch.setattr("texvent.io.aedat.aedat4_tables.PART_TABLES", part)
     found = list(Table.root(packet(7), b"TRIG").columns(0, ["<i8", "<i1"]))
     assert np.concatenate([one[0] for one in found]).tolist() == [1000 * at for at in range(7)]
@@ -69,7 +62,7 @@ def test_lists_of_tables_are_read_a_part_at_a_time(
         (packet(5)[:36] + bytes(200), "what is no table"),
     ],
 )
-def test_a_list_that_grows_from_nothing_is_refused(data: bytes, message: str) -> None:
+def test_a_list_that_grows_from_nothing_is_refused(data, message):
     with pytest.raises(FileFormatError, match=message):
         list(Table.root(struct.pack("<I", len(data) - 4) + data[4:], b"TRIG").columns(0, ["<i8"]))
 
@@ -83,9 +76,7 @@ PACKINGS = {
 
 
 @pytest.mark.parametrize("name", PACKINGS)
-def test_packets_come_back_whole_or_are_refused_in_bounded_memory(
-    name: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_packets_come_back_whole_or_are_refused_in_bounded_memory(name, monkeypatch):
     pack: Callable[[bytes], bytes]
     pack, unpack = PACKINGS[name]
     most = 2**20

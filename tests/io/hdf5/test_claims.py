@@ -1,7 +1,5 @@
 """HDF5 files that claim more than they hold, which would hang a reader or fill its memory."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -27,14 +25,14 @@ def write_columns(path: Path, **options: Any) -> Path:
     return path
 
 
-def test_columns_that_nothing_stored_stands_behind_are_refused(tmp_path: Path) -> None:
+def test_columns_that_nothing_stored_stands_behind_are_refused(tmp_path):
     path = write_columns(tmp_path / "e.h5", shape=(FOR_EVER,), chunks=(1 << 16,), compression=1)
     assert path.stat().st_size < 20_000
     with pytest.raises(FileFormatError, match=f"claims {FOR_EVER} values and stores at most 0"):
         open_events(path, size=SIZE)
 
 
-def test_rows_of_v2e_that_nothing_stored_stands_behind_are_refused(tmp_path: Path) -> None:
+def test_rows_of_v2e_that_nothing_stored_stands_behind_are_refused(tmp_path):
     path = tmp_path / "e.h5"
     with h5py.File(path, "w") as file:
         file.create_dataset("events", (FOR_EVER, 4), "u4", chunks=(1 << 16, 4), compression=1)
@@ -42,7 +40,7 @@ def test_rows_of_v2e_that_nothing_stored_stands_behind_are_refused(tmp_path: Pat
         open_events(path, size=SIZE)
 
 
-def test_a_chunk_that_would_fill_the_memory_is_refused(tmp_path: Path) -> None:
+def test_a_chunk_that_would_fill_the_memory_is_refused(tmp_path):
     length = MAX_CHUNK_BYTES // 2 + 1
     path = write_columns(tmp_path / "e.h5", shape=(length,), chunks=(length,), compression=1)
     with pytest.raises(FileFormatError, match="has chunks of 268435458 bytes; at most 268435456"):
@@ -50,7 +48,7 @@ def test_a_chunk_that_would_fill_the_memory_is_refused(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["t_offset", "texvent"])
-def test_other_values_that_would_fill_the_memory_are_refused(tmp_path: Path, name: str) -> None:
+def test_other_values_that_would_fill_the_memory_are_refused(tmp_path, name):
     path = write_columns(tmp_path / "e.h5", data=np.zeros(0))
     with h5py.File(path, "a") as file:
         file.create_dataset(name, (FOR_EVER,), "u1", chunks=(1 << 16,))
@@ -111,9 +109,7 @@ def put_together(file: Any) -> None:
         put_together,
     ],
 )
-def test_nothing_of_other_files_becomes_events(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, change: Callable[[Any], None]
-) -> None:
+def test_nothing_of_other_files_becomes_events(tmp_path, monkeypatch, change):
     monkeypatch.chdir(tmp_path)
     Path("secret").write_bytes(bytes(1000))
     with h5py.File("other.h5", "w") as file:
@@ -127,9 +123,7 @@ def test_nothing_of_other_files_becomes_events(
 
 
 @pytest.mark.parametrize(("depth", "is_read"), [(DEEPEST - 1, True), (5000, False)])
-def test_groups_are_followed_as_deep_as_recordings_nest(
-    tmp_path: Path, depth: int, is_read: bool
-) -> None:
+def test_groups_are_followed_as_deep_as_recordings_nest(tmp_path, depth, is_read):
     path = tmp_path / "e.h5"
     with h5py.File(path, "w") as file:
         write_recording(file)
@@ -151,7 +145,7 @@ def test_groups_are_followed_as_deep_as_recordings_nest(
         lambda file: file.__setitem__("events/soft", h5py.SoftLink("/events/x")),
     ],
 )
-def test_links_within_a_file_are_sound(tmp_path: Path, change: Callable[[Any], None]) -> None:
+def test_links_within_a_file_are_sound(tmp_path, change):
     path = tmp_path / "e.h5"
     with h5py.File(path, "w") as file:
         write_recording(file)

@@ -1,17 +1,12 @@
-from __future__ import annotations
-
 import errno
 import os
-from pathlib import Path
 
 import pytest
 
 from texvent.io.hdf5.storage import DeferredErrorFile
 
 
-def test_a_failed_write_is_remembered_and_ends_writing(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_failed_write_is_remembered_and_ends_writing(tmp_path, monkeypatch):
     def refuse(*_: object) -> int:
         raise OSError(errno.ENOSPC, "full")
 

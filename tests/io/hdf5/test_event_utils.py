@@ -1,7 +1,5 @@
 """HDF5 of event_utils: what its own reader asks for, with frames and without."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import h5py

@@ -1,7 +1,5 @@
 """Bodies of ECF chunks of every legal kind, made by plain loops from the described layout."""
 
-from __future__ import annotations
-
 import itertools
 import struct
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """Streams and hand-made files for the formats of Prophesee."""
 
-from __future__ import annotations
-
 import struct
 from collections.abc import Callable, Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Prophesee words decoded one by one, written from the published tables; slow and plain."""
 
-from __future__ import annotations
-
 import struct
 
 Event = tuple[int, int, int, int]

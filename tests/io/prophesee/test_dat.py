@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest
@@ -37,19 +35,6 @@ def test_older_headers_without_space_or_size_are_read(tmp_path: Path) -> None:
     events = load(path, size=(304, 240))
     assert events_of(events) == [(1, 2, 3, 1)]
     assert events.metadata["header"]["Date"] == "2014-06-11 14:11:35"
-
-
-def test_a_time_that_wraps_is_unrolled(tmp_path: Path) -> None:
-    times = [70_000, 2**32 - 2, 3, 2**31, 2**32 - 1, 0]
-    path = write_words(tmp_path, "dat", [record(0, 0, time, 1) for time in times])
-    assert load(path).t.tolist() == [70_000, 2**32 - 2, 2**32 + 3, 3 * 2**31, 2**33 - 1, 2**33]
-
-
-def test_a_wrap_between_blocks_is_unrolled(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("texvent.io.byte_blocks.BLOCK_BYTES", 8)
-    times = [2**32 - 2, 3, 2**31, 2**32 - 1, 0]
-    path = write_words(tmp_path, "dat", [record(0, 0, time, 1) for time in times])
-    assert load(path).t.tolist() == [2**32 - 2, 2**32 + 3, 3 * 2**31, 2**33 - 1, 2**33]
 
 
 @pytest.mark.parametrize(

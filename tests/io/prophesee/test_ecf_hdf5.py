@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 
@@ -33,7 +31,7 @@ def records_of(events: EventStream) -> np.ndarray:
     return records
 
 
-def test_the_content_decides_which_hdf5_reader_opens_it(tmp_path: Path) -> None:
+def test_the_content_decides_which_hdf5_reader_opens_it(tmp_path):
     events = at_times(1, 2)
     for extension in (".h5", ".hdf5"):
         ours = save(tmp_path / f"universal{extension}", events)
@@ -46,7 +44,7 @@ def test_the_content_decides_which_hdf5_reader_opens_it(tmp_path: Path) -> None:
         load(ours, format="prophesee-hdf5")
 
 
-def test_a_chunk_the_filter_was_not_applied_to_is_read(tmp_path: Path) -> None:
+def test_a_chunk_the_filter_was_not_applied_to_is_read(tmp_path):
     events = row_bursts(50)
     path = write_ecf(tmp_path / "e.hdf5", EventStream.empty(SIZE))
     full = np.zeros(CHUNK_EVENTS, dtype=EVENT)
@@ -62,7 +60,7 @@ def test_a_chunk_the_filter_was_not_applied_to_is_read(tmp_path: Path) -> None:
     [{}, {"chunks": (100,)}, {"chunks": (100,), "compression": "gzip", "shuffle": True}],
     ids=["contiguous", "chunks", "gzip"],
 )
-def test_files_without_ecf_are_read(tmp_path: Path, options: dict[str, Any]) -> None:
+def test_files_without_ecf_are_read(tmp_path, options):
     events = row_bursts(50)
     path = make_foreign(tmp_path / "e.hdf5", records_of(events), **options)
     back = load(path)
@@ -70,9 +68,7 @@ def test_files_without_ecf_are_read(tmp_path: Path, options: dict[str, Any]) -> 
     assert back.metadata == {"header": {"geometry": "1280x720"}}
 
 
-def test_packets_end_with_whole_chunks_and_memory_stays_flat(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_packets_end_with_whole_chunks_and_memory_stays_flat(tmp_path, monkeypatch):
     events = row_bursts(4000)
     path = write_ecf(tmp_path / "e.hdf5", events)
     monkeypatch.setattr(ecf_hdf5, "PACKET_CHUNKS", 1)
@@ -81,7 +77,7 @@ def test_packets_end_with_whole_chunks_and_memory_stays_flat(
     assert EventStream.concat(packets).equals(events)
 
 
-def test_an_absent_size_is_asked_for(tmp_path: Path) -> None:
+def test_an_absent_size_is_asked_for(tmp_path):
     path = make_foreign(tmp_path / "e.hdf5", records_of(at_times(1)))
     with h5py.File(path, "r+") as file:
         del file.attrs["geometry"]
@@ -125,7 +121,7 @@ def damage(path: Path, change: str) -> None:
         ("a group", "has no dataset CD/events"),
     ],
 )
-def test_a_damaged_file_is_one_clear_line(tmp_path: Path, change: str, message: str) -> None:
+def test_a_damaged_file_is_one_clear_line(tmp_path, change, message):
     path = write_ecf(tmp_path / "e.hdf5", at_times(1, 2, 3))
     damage(path, change)
     with pytest.raises(FileFormatError, match=message) as caught:
@@ -133,9 +129,7 @@ def test_a_damaged_file_is_one_clear_line(tmp_path: Path, change: str, message: 
     assert "\n" not in str(caught.value)
 
 
-def test_time_that_decreases_between_packets_is_noticed(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_time_that_decreases_between_packets_is_noticed(tmp_path, monkeypatch):
     monkeypatch.setattr(ecf_hdf5, "PACKET_CHUNKS", 1)
     path = write_ecf(tmp_path / "e.hdf5", at_times(*[100] * (CHUNK_EVENTS + 3)))
     with h5py.File(path, "r+") as file:

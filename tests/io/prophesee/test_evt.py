@@ -1,11 +1,8 @@
 """RAW files: the header tells the formats apart."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import tracemalloc
-from pathlib import Path
 
 import pytest
 
@@ -23,9 +20,7 @@ EVT = ("evt2", "evt21", "evt3")
 @pytest.mark.parametrize(("start", "wrong"), [(0, 1 / 2), (0, 1 - 1 / 64), (1 - 1 / 8, 1 / 64)])
 @pytest.mark.parametrize("between", [0, 1])
 @pytest.mark.parametrize(("format", "bits"), [("evt2", 28), ("evt21", 28), ("evt3", 12)])
-def test_a_lone_wrong_high_time_is_damage_not_a_turn(
-    tmp_path: Path, format: str, bits: int, between: int, start: float, wrong: float
-) -> None:
+def test_a_lone_wrong_high_time_is_damage_not_a_turn(tmp_path, format, bits, between, start, wrong):
     """Nothing that follows it is moved, whether or not an event has it."""
     words, first = [], int(start * (1 << bits))
     for at in range(400):
@@ -52,9 +47,7 @@ TYPES["evt3"] = {*range(9), 10, 14, 15}
 
 @pytest.mark.parametrize("kind", range(16))
 @pytest.mark.parametrize("format", EVT)
-def test_types_of_words_that_a_format_does_not_have_are_told(
-    tmp_path: Path, format: str, kind: int, recwarn: pytest.WarningsRecorder
-) -> None:
+def test_types_of_words_that_a_format_does_not_have_are_told(tmp_path, format, kind, recwarn):
     bits = {"evt2": 28, "evt21": 60, "evt3": 12}[format]
     path = write_words(tmp_path, format, [8 << bits, *[kind << bits] * 9] * SAMPLE)
     load(path)
@@ -63,9 +56,7 @@ def test_types_of_words_that_a_format_does_not_have_are_told(
 
 
 @pytest.mark.parametrize("format", EVT)
-def test_one_extension_is_read_by_its_header_and_written_as_evt3(
-    tmp_path: Path, format: str
-) -> None:
+def test_one_extension_is_read_by_its_header_and_written_as_evt3(tmp_path, format):
     path = write_words(tmp_path, format, [])
     assert len(load(path)) == 0
     assert codec_that_reads(path).name == format
@@ -83,23 +74,19 @@ def test_one_extension_is_read_by_its_header_and_written_as_evt3(
         ("% evt 3.0\n", (1280, 720)),
     ],
 )
-def test_headers_of_other_generations_are_understood(
-    tmp_path: Path, header: str, size: tuple[int, int] | None
-) -> None:
+def test_headers_of_other_generations_are_understood(tmp_path, header, size):
     path = write_words(tmp_path, "evt3", [0x8001, 0x6002, 0x0003, 0x2804], header=header)
     events = load(path, size=size)
     assert (events.t.tolist(), tuple(events.size)) == ([4098], (1280, 720))
     assert events.metadata["header"]["evt"] == "3.0"
 
 
-def test_data_that_begins_like_a_header_line_is_data_once_the_header_has_ended(
-    tmp_path: Path,
-) -> None:
+def test_data_that_begins_like_a_header_line_is_data_once_the_header_has_ended(tmp_path):
     path = write_words(tmp_path, "evt3", [0x2025, 0x8001, 0x6002, 0x0003, 0x2804])
     assert load(path).t.tolist() == [4098]
 
 
-def test_control_bytes_end_a_header_without_an_end_line(tmp_path: Path) -> None:
+def test_control_bytes_end_a_header_without_an_end_line(tmp_path):
     header = "% evt 2.0\n% geometry 1280x720\n"
     path = write_words(tmp_path, "evt2", [0x0000_2025, 0x8000_0001, 0x0], header=header)
     assert load(path).t.tolist() == [64]
@@ -123,7 +110,7 @@ def test_control_bytes_end_a_header_without_an_end_line(tmp_path: Path) -> None:
         (b"% evt 3.0\n% geometry 4x4\n% end\n\x01\x80\x00\x00\x04\x20", "x runs from 4 to 4"),
     ],
 )
-def test_a_damaged_file_is_one_clear_line(tmp_path: Path, content: bytes, message: str) -> None:
+def test_a_damaged_file_is_one_clear_line(tmp_path, content, message):
     path = tmp_path / "e.raw"
     path.write_bytes(content)
     with pytest.raises(FileFormatError, match=message) as caught:
@@ -131,9 +118,7 @@ def test_a_damaged_file_is_one_clear_line(tmp_path: Path, content: bytes, messag
     assert "\n" not in str(caught.value)
 
 
-def test_a_header_without_end_is_not_read_into_memory(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_header_without_end_is_not_read_into_memory(tmp_path, monkeypatch):
     monkeypatch.setattr(text_header, "MAX_HEADER_BYTES", 100)
     for content in (b"% key value\n" * 20, b"% key " + b"v" * 200):
         path = tmp_path / "e.raw"
@@ -142,16 +127,14 @@ def test_a_header_without_end_is_not_read_into_memory(
             load(path)
 
 
-def test_metadata_too_long_for_a_header_is_refused(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_metadata_too_long_for_a_header_is_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(metadata, "MAX_HEADER_BYTES", 100)
     with pytest.raises(InputError, match=r"metadata of \d+ bytes cannot be stored in a text"):
         save(tmp_path / "e.raw", at_times(1).with_metadata({"prompt": "a" * 60}))
     assert not list(tmp_path.iterdir())
 
 
-def test_numba_is_imported_only_when_words_are_decoded() -> None:
+def test_numba_is_imported_only_when_words_are_decoded():
     program = (
         "import sys; from texvent.io.files import codec_for; codec_for('a.raw'); "
         "codec_for('a.dat'); codec_for('a.h5'); "
@@ -173,9 +156,7 @@ def test_numba_is_imported_only_when_words_are_decoded() -> None:
         ("sensor_generation 3.1", (640, 480)),
     ],
 )
-def test_older_headers_name_the_sensor_otherwise(
-    tmp_path: Path, lines: str, size: tuple[int, int] | None
-) -> None:
+def test_older_headers_name_the_sensor_otherwise(tmp_path, lines, size):
     path = tmp_path / "e.raw"
     path.write_bytes(f"% evt 3.0\n% {lines}\n% end\n".encode() + bytes([0, 0x80]))
     if size is None:
@@ -186,9 +167,7 @@ def test_older_headers_name_the_sensor_otherwise(
 
 
 @pytest.mark.parametrize("format", FORMATS)
-def test_memory_does_not_grow_with_the_file(
-    tmp_path: Path, format: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_memory_does_not_grow_with_the_file(tmp_path, format, monkeypatch):
     events = row_bursts(20_000)
     whole = sum(column.nbytes for column in events.columns().values())
     monkeypatch.setattr(byte_blocks, "BLOCK_BYTES", 2**14)

@@ -1,7 +1,3 @@
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -40,9 +36,7 @@ def exchange_halves(word: int) -> int:
         ("% evt 2.1\n% geometry 1280x720\n% end\n", False),
     ],
 )
-def test_the_header_decides_which_half_of_a_word_comes_first(
-    tmp_path: Path, header: str, legacy: bool
-) -> None:
+def test_the_header_decides_which_half_of_a_word_comes_first(tmp_path, header, legacy):
     words = [exchange_halves(word) if legacy else word for word in WORDS]
     assert events_of(load(write_words(tmp_path, "evt21", words, header=header))) == MEANING
 
@@ -58,7 +52,7 @@ def test_the_header_decides_which_half_of_a_word_comes_first(
         max_size=40,
     )
 )
-def test_any_words_mean_what_the_slow_decoder_says(words: list[int]) -> None:
+def test_any_words_mean_what_the_slow_decoder_says(words):
     array = np.array(words, dtype="<u8")
     highs = (array[array >> 60 == 8] >> 32 & 0xFFF_FFFF).astype(np.int64)
     if (np.diff(highs) < -(2**27)).any():

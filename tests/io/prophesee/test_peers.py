@@ -6,8 +6,6 @@ registry that may be depended on knows EVT2.1 or ECF: `tests/io/prophesee/test_e
 `tests/io/prophesee/test_ecf_chunks.py` hold those to the published descriptions.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -3,8 +3,6 @@
 Run with `pytest -m network`; 29 MB are fetched into the data folder, once.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Compressed bags of others are read; those made to fill memory or disk are not."""
 
-from __future__ import annotations
-
 import sqlite3
 from contextlib import closing
 from pathlib import Path
@@ -42,14 +40,12 @@ def compressed(request: pytest.FixtureRequest, tmp_path: Path) -> tuple[Path, An
     return path, events
 
 
-def test_compressed_bags_are_read(compressed: tuple[Path, Any]) -> None:
+def test_compressed_bags_are_read(compressed):
     path, events = compressed
     assert load(path).equals(events)
 
 
-def test_a_chunk_that_would_fill_the_memory_is_refused(
-    compressed: tuple[Path, Any], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_chunk_that_would_fill_the_memory_is_refused(compressed, monkeypatch):
     monkeypatch.setattr(aedat4_container, "MAX_PACKET_BYTES", 10_000)
     with pytest.raises(FileFormatError, match="unpacks to more than 0 MiB"):
         load(compressed[0])
@@ -91,9 +87,7 @@ def pack_messages(folder: Path) -> None:
 
 
 @pytest.mark.parametrize("mode", ["file", "message"])
-def test_packed_folders_are_read_and_bounded(
-    plain: Path, monkeypatch: pytest.MonkeyPatch, mode: str
-) -> None:
+def test_packed_folders_are_read_and_bounded(plain, monkeypatch, mode):
     expected = load(plain)
     if mode == "file":
         pack_file(plain, database(plain).read_bytes())
@@ -117,7 +111,7 @@ def test_packed_folders_are_read_and_bounded(
         "CREATE TABLE messages(id, topic_id, timestamp, data GENERATED ALWAYS AS (zeroblob(9)))",
     ],
 )
-def test_values_that_a_database_computes_are_refused(plain: Path, change: str) -> None:
+def test_values_that_a_database_computes_are_refused(plain, change):
     path = database(plain)
     with closing(sqlite3.connect(path)) as file, file:
         file.execute("ALTER TABLE messages RENAME TO old")
@@ -131,16 +125,14 @@ def test_values_that_a_database_computes_are_refused(plain: Path, change: str) -
         load(plain)
 
 
-def test_facts_of_aliases_are_refused(plain: Path) -> None:
+def test_facts_of_aliases_are_refused(plain):
     facts = plain / "metadata.yaml"
     facts.write_text("a: &a [x, x]\nb: *a\n" + facts.read_text("utf-8"), "utf-8")
     with pytest.raises(FileFormatError, match="has aliases, which no recorder writes"):
         load(plain)
 
 
-def test_chunks_of_mcap_are_bounded_and_ros1_in_it_is_named(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_chunks_of_mcap_are_bounded_and_ros1_in_it_is_named(tmp_path, monkeypatch):
     rosbag2 = pytest.importorskip("rosbags.rosbag2", reason="rosbags is not installed")
     writer = rosbag2.Writer(tmp_path / "b", version=9, storage_plugin=rosbag2.StoragePlugin.MCAP)
     writer.set_compression(rosbag2.CompressionMode.STORAGE, rosbag2.CompressionFormat.ZSTD)

@@ -1,7 +1,5 @@
 """Bags of other programs: both ROS, all messages and encodings, several cameras, folders."""
 
-from __future__ import annotations
-
 import struct
 from pathlib import Path
 from typing import Any
@@ -106,9 +104,7 @@ def write_bag(path: Path, version: int, messages: dict[str, tuple[str, list[Any]
 @pytest.mark.long
 @pytest.mark.parametrize("kind", [EVENT_ARRAY, PROPHESEE_ARRAY, DV_ARRAY])
 @pytest.mark.parametrize(("version", "name"), [(1, "a.bag"), (2, "folder")])
-def test_arrays_of_both_versions_are_read(
-    tmp_path: Path, kind: str, version: int, name: str
-) -> None:
+def test_arrays_of_both_versions_are_read(tmp_path, kind, version, name):
     types = types_of(version)
     for count in range(4):
         message = array_message(types, kind, version, count)
@@ -141,14 +137,8 @@ CAER_CMP = struct.pack("<8H", 0x1046, 0x2003, 0x3805, 0x0001, 0x1006, 0x2004, 0x
     ],
 )
 def test_packets_of_every_encoding_are_read(
-    tmp_path: Path,
-    kind: str,
-    version: int,
-    encoding: str,
-    payload: bytes,
-    base_ns: int,
-    times: list[int],
-) -> None:
+    tmp_path, kind, version, encoding, payload, base_ns, times
+):
     message = packet_message(types_of(version), version, encoding, payload, base_ns, kind=kind)
     name = "a.bag" if version == 1 else "folder"
     events = load(write_bag(tmp_path / name, version, {"/e": (kind, [message])}))
@@ -181,7 +171,7 @@ def slow_libcaer_cmp(words: list[int], base_us: int) -> list[tuple[int, int, int
         st.builds(lambda kind, value: kind << 12 | value, st.integers(0, 5), st.integers(0, 0xFFF))
     )
 )
-def test_libcaer_cmp_of_any_words_is_that_of_the_slow_decoder(words: list[int]) -> None:
+def test_libcaer_cmp_of_any_words_is_that_of_the_slow_decoder(words):
     words = [0x4000, *words]
     payload = memoryview(struct.pack(f"<{len(words)}H", *words))
     columns = unpack_libcaer_cmp(RawMessage(SIZE, payload, "libcaer_cmp", 7_000))
@@ -189,7 +179,7 @@ def test_libcaer_cmp_of_any_words_is_that_of_the_slow_decoder(words: list[int]) 
     assert rows == slow_libcaer_cmp(words, 7)
 
 
-def test_a_size_that_is_not_said_is_asked_for_and_may_not_change(tmp_path: Path) -> None:
+def test_a_size_that_is_not_said_is_asked_for_and_may_not_change(tmp_path):
     types = types_of(2)
     sizes: dict[str, list[tuple[int, int]]] = {"a": [(0, 0), (0, 0)], "b": [(0, 0), SIZE]}
     for name, said in {**sizes, "c": [SIZE, (8, 7)]}.items():
@@ -205,7 +195,7 @@ def test_a_size_that_is_not_said_is_asked_for_and_may_not_change(tmp_path: Path)
         load(tmp_path / "c")
 
 
-def test_one_of_several_cameras_is_chosen(tmp_path: Path) -> None:
+def test_one_of_several_cameras_is_chosen(tmp_path):
     types = types_of(1)
     left, right = (array_message(types, EVENT_ARRAY, 1, count) for count in (1, 2))
     bag = {"/left/events": (EVENT_ARRAY, [left]), "/right/events": (EVENT_ARRAY, [right])}
@@ -218,7 +208,7 @@ def test_one_of_several_cameras_is_chosen(tmp_path: Path) -> None:
         load(path, stream="top")
 
 
-def test_another_encoding_and_a_bag_without_events_are_named(tmp_path: Path) -> None:
+def test_another_encoding_and_a_bag_without_events_are_named(tmp_path):
     types = types_of(2)
     refused = {
         "encoded as 'zip'; texvent reads evt3, mono, libcaer, libcaer_cmp": ("zip", b"", False),

@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import json
 from decimal import Decimal
 from pathlib import Path
@@ -22,19 +20,19 @@ def write(folder: Path, text: str) -> Path:
     return path
 
 
-def test_rows_of_the_data_set_are_read_to_the_microsecond(tmp_path: Path) -> None:
+def test_rows_of_the_data_set_are_read_to_the_microsecond(tmp_path):
     events = load(write(tmp_path, RECORDED), size=(240, 180))
     assert events.t.tolist() == [3811, 3820, 3821]
     assert (events.x.tolist(), events.y.tolist()) == ([96, 127, 13], [133, 171, 34])
     assert events.p.tolist() == [0, 1, 1]
 
 
-def test_the_size_is_asked_for_and_never_guessed(tmp_path: Path) -> None:
+def test_the_size_is_asked_for_and_never_guessed(tmp_path):
     with pytest.raises(InputError, match=r"does not store the sensor size; give it \(size="):
         load(write(tmp_path, RECORDED))
 
 
-def test_whole_microseconds_are_written_exactly(tmp_path: Path) -> None:
+def test_whole_microseconds_are_written_exactly(tmp_path):
     times = [0, 1, 999_999, 1_000_000, 1_790_000_000_123_456]
     for late in ([], [5_000_000_000_000_001, 2**33 * 1_000_000 + 7, 2**63 - 1]):
         ones = [1] * len(times + late)
@@ -44,7 +42,7 @@ def test_whole_microseconds_are_written_exactly(tmp_path: Path) -> None:
         assert load(path).equals(events)
 
 
-def test_size_and_metadata_lie_beside_the_rows(tmp_path: Path) -> None:
+def test_size_and_metadata_lie_beside_the_rows(tmp_path):
     events = EventStream.from_columns([1], [2], [3], [1], size=SensorSize(4, 5))
     path = save(tmp_path / "events.txt", events.with_metadata({"seed": 0}))
     beside = json.loads((tmp_path / "events.txt.json").read_text())
@@ -52,9 +50,7 @@ def test_size_and_metadata_lie_beside_the_rows(tmp_path: Path) -> None:
     assert path.read_text() == "0.000003 1 2 1\n"
 
 
-def test_blocks_that_cut_lines_change_nothing(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_blocks_that_cut_lines_change_nothing(tmp_path, monkeypatch):
     path = write(tmp_path, RECORDED * 1)
     whole = load(path, size=(240, 180))
     monkeypatch.setattr(text_rows, "BLOCK_BYTES", 30)
@@ -63,7 +59,7 @@ def test_blocks_that_cut_lines_change_nothing(
     assert EventStream.concat(packets).equals(whole)
 
 
-def test_a_file_without_a_last_newline_is_whole(tmp_path: Path) -> None:
+def test_a_file_without_a_last_newline_is_whole(tmp_path):
     assert len(load(write(tmp_path, RECORDED.rstrip("\n")), size=(240, 180))) == 3
 
 
@@ -82,13 +78,13 @@ def test_a_file_without_a_last_newline_is_whole(tmp_path: Path) -> None:
         ("0.2 1 1 1\n0.1 1 1 1\n", "time decreases"),
     ],
 )
-def test_a_wrong_row_is_one_clear_line(tmp_path: Path, text: str, message: str) -> None:
+def test_a_wrong_row_is_one_clear_line(tmp_path, text, message):
     with pytest.raises(FileFormatError, match=message) as caught:
         load(write(tmp_path, text), size=(4, 4))
     assert "\n" not in str(caught.value)
 
 
-def test_a_damaged_companion_file_is_reported(tmp_path: Path) -> None:
+def test_a_damaged_companion_file_is_reported(tmp_path):
     path = write(tmp_path, RECORDED)
     for text in ("{", "[]", '{"width": 4}', '{"width": "a", "height": 4}'):
         (tmp_path / "events.txt.json").write_text(text)
@@ -105,9 +101,7 @@ def test_a_damaged_companion_file_is_reported(tmp_path: Path) -> None:
         ("500000", "us", "ns"),
     ],
 )
-def test_times_that_cannot_be_meant_name_the_likely_unit(
-    tmp_path: Path, step: str, unit: str, meant: str | None
-) -> None:
+def test_times_that_cannot_be_meant_name_the_likely_unit(tmp_path, step, unit, meant):
     path = write(tmp_path, "".join(f"{k * Decimal(step)} 3 4 1\n" for k in range(9_000)))
     wanted = f"probably {meant}: give" if meant else r"give time_unit \(--time-unit s, ms"
     with pytest.raises(FileFormatError, match=f"read as {unit} .*{wanted}"):
@@ -118,8 +112,8 @@ def test_times_that_cannot_be_meant_name_the_likely_unit(
 @pytest.mark.parametrize("clock_us", [0, 1_700_000_000_123_456])
 @pytest.mark.parametrize(("unit", "more"), [("s", 6), ("ms", 3), ("us", 0), ("ns", -3)])
 def test_text_of_any_unit_and_clock_is_the_nearest_us_and_ns_are_cut(
-    tmp_path: Path, unit: str, more: int, clock_us: int
-) -> None:
+    tmp_path, unit, more, clock_us
+):
     # Of a Unix time, a float64 holds no tenths of a µs: only ns, which are read as whole numbers.
     tenths = [10, 14, 26, 38, 51] if unit == "ns" or not clock_us else [10, 10, 30, 40, 50]
     exact = [(clock_us + Decimal(one) / 10).scaleb(-more) for one in tenths]
@@ -129,7 +123,7 @@ def test_text_of_any_unit_and_clock_is_the_nearest_us_and_ns_are_cut(
     assert found.t.tolist() == [clock_us + one for one in cut]
 
 
-def test_a_quiet_sensor_is_no_wrong_unit(tmp_path: Path) -> None:
+def test_a_quiet_sensor_is_no_wrong_unit(tmp_path):
     path = write(tmp_path, "".join(f"{k * Decimal('0.19')} 3 4 1\n" for k in range(500)))
     assert len(load(path, size=(240, 180))) == 500
     assert len(load(write(tmp_path, "0.5 1 1 1\n86400.5 1 1 1\n"), size=(4, 4))) == 2
@@ -152,9 +146,7 @@ def test_a_quiet_sensor_is_no_wrong_unit(tmp_path: Path) -> None:
         ("70 3 5 1\n80 4 6 0\n", {"time_unit": "us"}),
     ],
 )  # fmt: skip
-def test_dialects_of_other_programs_are_read(
-    tmp_path: Path, text: str, options: dict[str, str]
-) -> None:
+def test_dialects_of_other_programs_are_read(tmp_path, text, options):
     expected = EventStream.from_columns([3, 4], [5, 6], [70, 80], [1, 0], size=SensorSize(9, 9))
     for name in ("events.txt", "events.csv", "events.rows"):
         path = tmp_path / name
@@ -162,7 +154,7 @@ def test_dialects_of_other_programs_are_read(
         assert load(path, size=(9, 9), **options).equals(expected), name
 
 
-def test_an_order_that_is_not_certain_is_asked_for(tmp_path: Path) -> None:
+def test_an_order_that_is_not_certain_is_asked_for(tmp_path):
     path = tmp_path / "events.csv"
     path.write_text("1,1,5,1\n2,1,5,1\n")
     with pytest.raises(InputError, match=r"fit txyp and xytp \(the first is 1, 1, 5, 1\); give"):

@@ -1,7 +1,5 @@
 """Image files are judged by their heads before they are decoded, at every door."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable
 from pathlib import Path
@@ -44,9 +42,7 @@ def write_image(path: Path, dtype: str = "u1", channels: int = 3) -> Path:
         ("pnm", "u2"),
     ],
 )
-def test_a_head_states_at_least_what_is_decoded(
-    tmp_path: Path, ending: str, dtype: str, channels: int
-) -> None:
+def test_a_head_states_at_least_what_is_decoded(tmp_path, ending, dtype, channels):
     ending = {1: "pgm", 3: "ppm"}[channels] if ending == "pnm" else ending
     path = write_image(tmp_path / f"image.{ending}", dtype, channels)
     decoded = decode_image(path, cv2.IMREAD_ANYCOLOR | cv2.IMREAD_ANYDEPTH)
@@ -74,8 +70,8 @@ DOORS: dict[str, Callable[[Path], object]] = {
 @pytest.mark.parametrize("usable", [SMALL_BYTES, 1000])
 @pytest.mark.parametrize("door", DOORS)
 def test_an_image_that_would_fill_the_memory_is_refused_at_every_door(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, door: str, usable: int
-) -> None:
+    tmp_path, monkeypatch, door, usable
+):
     path = write_image(tmp_path / "image.png", channels=1 if door == "mask" else 3)
     if door == "mask":
         cv2.imwrite(str(path), np.eye(*SHAPE, dtype=np.uint8))
@@ -99,7 +95,7 @@ def test_an_image_that_would_fill_the_memory_is_refused_at_every_door(
         b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\xea\x60\0\0\xea\x60\x10\x02\0\0\0",
     ],
 )
-def test_a_short_file_of_a_large_image_is_refused(tmp_path: Path, head: bytes) -> None:
+def test_a_short_file_of_a_large_image_is_refused(tmp_path, head):
     path = tmp_path / "image.png"
     path.write_bytes(head)
     with pytest.raises(FileFormatError, match="claims to unpack to"):
@@ -107,13 +103,13 @@ def test_a_short_file_of_a_large_image_is_refused(tmp_path: Path, head: bytes) -
 
 
 @pytest.mark.parametrize("claimed", [15360 * 8640 * 3, 7680 * 4320 * 3 * 4])
-def test_black_frames_of_16k_and_8k_floats_are_no_bombs(tmp_path: Path, claimed: int) -> None:
+def test_black_frames_of_16k_and_8k_floats_are_no_bombs(tmp_path, claimed):
     path = tmp_path / "black.png"
     path.write_bytes(os.urandom(1000))
     check_claim(claimed, path)
 
 
-def test_damaged_heads_leave_the_word_to_the_decoder(tmp_path: Path) -> None:
+def test_damaged_heads_leave_the_word_to_the_decoder(tmp_path):
     path = tmp_path / "image.png"
     for ending in FORMATS:
         whole = write_image(tmp_path / f"whole.{ending}", FORMATS[ending][0]).read_bytes()

@@ -1,7 +1,5 @@
 """Opening of video files whose texts are not UTF-8."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import av

@@ -1,7 +1,5 @@
 """Processes that die take one task with them, which is run again; only the guilty is given up."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

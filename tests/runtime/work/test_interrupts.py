@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import contextlib
 import signal
 import sys
@@ -18,7 +16,7 @@ from texvent.runtime.work.interrupts import (
 )
 
 
-def test_ctrl_c_takes_effect_after_the_block() -> None:
+def test_ctrl_c_takes_effect_after_the_block():
     done: list[str] = []
 
     def work() -> None:
@@ -32,7 +30,7 @@ def test_ctrl_c_takes_effect_after_the_block() -> None:
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
-def test_an_interrupt_inside_a_compiled_function_is_one() -> None:
+def test_an_interrupt_inside_a_compiled_function_is_one():
     # As CPython says it when C code returns a result with an exception set.
     def work() -> None:
         try:
@@ -48,7 +46,7 @@ def test_an_interrupt_inside_a_compiled_function_is_one() -> None:
 
 
 @pytest.mark.parametrize("runs_on", [True, False])
-def test_an_interrupt_that_meets_a_callback_is_not_lost(runs_on: bool) -> None:
+def test_an_interrupt_that_meets_a_callback_is_not_lost(runs_on):
     class Referent:
         pass
 
@@ -69,7 +67,7 @@ def test_an_interrupt_that_meets_a_callback_is_not_lost(runs_on: bool) -> None:
 
 
 @pytest.mark.parametrize("number", ENDING)
-def test_every_ending_signal_is_raised_with_its_number(number: signal.Signals) -> None:
+def test_every_ending_signal_is_raised_with_its_number(number):
     before = signal.getsignal(number)
     with pytest.raises(Interrupted) as caught, raise_interrupted():
         signal.raise_signal(number)
@@ -77,7 +75,7 @@ def test_every_ending_signal_is_raised_with_its_number(number: signal.Signals) -
     assert signal.getsignal(number) is before
 
 
-def test_an_interrupt_that_a_library_replaces_keeps_its_number() -> None:
+def test_an_interrupt_that_a_library_replaces_keeps_its_number():
     def work() -> None:
         with contextlib.suppress(KeyboardInterrupt):
             signal.raise_signal(signal.SIGTERM)
@@ -88,7 +86,7 @@ def test_an_interrupt_that_a_library_replaces_keeps_its_number() -> None:
     assert caught.value.number == signal.SIGTERM
 
 
-def test_signals_that_follow_at_once_do_not_disturb_the_clean_up() -> None:
+def test_signals_that_follow_at_once_do_not_disturb_the_clean_up():
     cleaned: list[str] = []
 
     def work() -> None:
@@ -105,9 +103,7 @@ def test_signals_that_follow_at_once_do_not_disturb_the_clean_up() -> None:
     assert cleaned == ["all"]
 
 
-def test_a_signal_long_after_the_first_ends_a_clean_up_that_hangs(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_a_signal_long_after_the_first_ends_a_clean_up_that_hangs(monkeypatch):
     now = [100.0]
     monkeypatch.setattr("texvent.runtime.work.interrupts.time.monotonic", lambda: now[0])
     raised: list[int] = []
@@ -121,7 +117,7 @@ def test_a_signal_long_after_the_first_ends_a_clean_up_that_hangs(
     assert raised == [signal.SIGINT, signal.SIGINT]
 
 
-def test_an_ignored_signal_stays_ignored() -> None:
+def test_an_ignored_signal_stays_ignored():
     before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
     try:
         with raise_interrupted(), stop_on_interrupt() as request:
@@ -131,7 +127,7 @@ def test_an_ignored_signal_stays_ignored() -> None:
         signal.signal(signal.SIGHUP, before)
 
 
-def test_a_run_is_asked_to_stop_once_and_interrupted_the_second_time() -> None:
+def test_a_run_is_asked_to_stop_once_and_interrupted_the_second_time():
     seen: list[int | None] = []
 
     def work() -> None:
@@ -145,7 +141,7 @@ def test_a_run_is_asked_to_stop_once_and_interrupted_the_second_time() -> None:
     assert seen == [signal.SIGTERM]
 
 
-def test_a_delayed_signal_can_ask_a_run_to_stop() -> None:
+def test_a_delayed_signal_can_ask_a_run_to_stop():
     with raise_interrupted(), stop_on_interrupt() as request:
         with delay_interrupts():
             signal.raise_signal(signal.SIGINT)

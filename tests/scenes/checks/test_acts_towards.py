@@ -2,38 +2,13 @@
 
 import numpy as np
 import pytest
-from tests.scenes.checks.test_words import check, report, told
 from tests.scenes.staged import DURATION_S, stage, thing
+from tests.scenes.test_short_prompts import is_right, report
 
 from texvent_scenes.checks.body_boxes import BodyBoxes
 from texvent_scenes.checks.relations import find_violations
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.scene_input import understand
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        "a horse overtakes a dog that runs left",
-        "a van overtakes a bus on a road",
-        "runners run to the right while a cyclist overtakes them",
-    ],
-)
-def test_who_overtakes_goes_the_same_way(text):
-    word = "overtakes"
-    check(text, word, is_shown=True)
-
-
-@pytest.mark.parametrize(
-    ("text", "word"),
-    [
-        ("a man walks to the left and a woman walks to the right beside him", "beside"),
-        ("a car drives left and a van that drives right overtakes it", "overtakes"),
-        ("a man runs right and a dog runs left next to him", "next to"),
-    ],
-)
-def test_two_that_go_apart_do_not_overtake_follow_or_accompany(text, word):
-    assert word not in report(text).shown
 
 
 def test_two_on_a_seesaw_sit_at_its_ends_and_go_up_in_turn():
@@ -61,23 +36,8 @@ def test_those_on_foot_go_the_same_way_unless_it_is_said(nouns, kind):
     "text", ["a woman walks beside a boy", "a man runs next to a dog", "a cow walks beside a horse"]
 )
 def test_who_is_walked_beside_walks_too(text):
-    assert told(text) == ""
+    assert is_right(text)
     assert "stand" not in str(report(text).scene)
-
-
-@pytest.mark.parametrize(
-    ("text", "word"),
-    [
-        ("a woman points at a car", "at"),
-        ("a man waves to a woman", "to"),
-        ("a girl waves at a dog", "at"),
-        ("a boy throws a ball at a hoop", "at"),
-        ("a girl rolls a ball to a dog", "to"),
-        ("a man kicks a football at a wall", "at"),
-    ],
-)
-def test_who_points_waves_or_throws_is_turned_to_the_target(text, word):
-    check(text, word, is_shown=True)
 
 
 @pytest.mark.parametrize("yaw", [0.0, 1.0, 2.5])
@@ -102,46 +62,3 @@ def test_what_is_thrown_behind_the_thrower_is_not_thrown_at_something(yaw):
     assert "towards" in violations(-way, -3.0), "it faces away"
     assert "towards" in violations(way, -3.0), "it flies away"
     assert "towards" in violations(way, 1.0), "it falls short"
-
-
-@pytest.mark.parametrize(
-    ("text", "is_shown"),
-    [
-        ("a woman sits at a piano", True),
-        ("a boy sits at a drum", False),
-        ("a man sits at a keyboard", False),
-        ("a man sits at a desk", True),
-        ("a girl sits at a table", True),
-        ("two men sit at a table", True),
-        ("a woman sits at a fire", True),
-    ],
-)
-def test_who_sits_at_a_thing_that_has_a_seat_is_on_one(text, is_shown):
-    check(text, "at", is_shown)
-
-
-@pytest.mark.parametrize(
-    "text",
-    ["a man writes on a whiteboard", "a woman writes on a sign", "a man claps on a fence"],
-)
-def test_nobody_stands_on_what_is_upright_to_do_something_on_it(text):
-    assert "on" not in report(text).shown
-    assert "on the" in told(text)
-
-
-@pytest.mark.parametrize(
-    ("text", "word", "is_shown"),
-    [
-        ("a woman gets in a taxi", "gets in", True),
-        ("a cat enters a building", "enters", True),
-        ("a man gets into a van", "gets into", True),
-        ("a man enters a room", "enters", False),
-        ("a dog enters a forest", "enters", False),
-        ("a car enters a city", "enters", False),
-        ("a man gets into an airplane", "gets into", False),  # which is out of view
-        ("a woman gets on a horse", "gets on", False),
-        ("a man gets in a glorp", "gets in", False),
-    ],
-)
-def test_who_enters_something_goes_into_a_thing_in_view(text, word, is_shown):
-    check(text, word, is_shown)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from tests.scenes.staged import DURATION_S, SIZE, stage, thing
-from tests.scenes.test_short_prompts import report, staged
+from tests.scenes.test_short_prompts import staged
 
 from texvent.camera import project
 from texvent_scenes.checks.limbs import find_tiny
@@ -44,16 +44,6 @@ def test_a_view_of_a_side_holds_whichever_way_the_subject_heads(view, heading_de
     scene = stage(man, camera=Camera(view=view))
     wrong = {one for one in ("side", "front", "back") if faults(scene, Camera(view=one))}
     assert wrong == {"side", "front", "back"} - {view}
-
-
-@pytest.mark.parametrize("word", ["macro view of", "extreme close up of"])
-@pytest.mark.parametrize(
-    ("subject", "is_so"),
-    [("a coin spinning", True), ("a snail on a leaf", True), ("a hummingbird hovering", True),
-     ("a woman reading", False), ("a car", False), ("a barista pouring milk", False)],
-)  # fmt: skip
-def test_a_macro_view_is_of_what_is_small(word, subject, is_so):
-    assert (word in report(f"{word} {subject}").shown) is is_so
 
 
 @pytest.mark.parametrize("kind", ["follow", "orbit", "pan", "dolly"])
@@ -131,11 +121,6 @@ def test_a_close_up_of_hands_at_work_holds_these_and_another_one_the_head(act, h
     assert said.is_faithful
 
 
-@pytest.mark.parametrize("place", ["motorway", "country road"])
-def test_a_camera_that_drives_goes_through_a_tunnel_and_no_wall(place):
-    assert report(f"driving through a tunnel on a {place}").is_faithful
-
-
 @pytest.mark.parametrize("place", ["forest", "city", "park"])
 @pytest.mark.parametrize("view", ["aerial", "top"])
 def test_scenery_stands_where_a_camera_from_the_air_looks(place, view):
@@ -147,49 +132,3 @@ def test_scenery_stands_where_a_camera_from_the_air_looks(place, view):
         inside |= (abs(x - 0.5 * SIZE.width) < 0.7 * SIZE.width) & (y > 0.0) & (depth > 0.0)
     assert len(spots) >= 30
     assert inside.mean() > 0.35
-
-
-@pytest.mark.parametrize(
-    ("text", "word", "is_shown"),
-    [
-        ("tracking shot of a parked car", "tracking shot of", False),
-        ("tracking shot of a car driving", "tracking shot of", True),
-        ("low angle shot of a man walking", "low angle shot", True),
-        ("aerial view of a car in a forest", "forest", True),
-        ("a plane flies above a city", "city", True),
-        ("a bus drives in a city", "city", True),
-        ("a lion sleeps in the savanna", "savanna", True),
-        ("close-up of a man at the beach", "beach", True),
-        ("close-up of a drone taking off", "close up of", True),
-        ("a bus on a city street, rear view", "rear view", True),
-        ("a traffic light shows red", "shows red", True),
-        ("a wheel spins up", "spins up", True),
-        ("a fan spins up", "spins up", False),
-        ("first person view of a dog running", "first person view of", False),
-        ("first person view walking through a forest", "first person view", True),
-        ("six cars at a roundabout", "at", True),
-        ("a table tennis rally with a fast ball", "ball", True),
-        (
-            "a traffic light changes from green to yellow to red",
-            "changes from green to yellow to red",
-            True,
-        ),
-        ("a woman walks through a corridor, filmed from behind", "filmed from behind", True),
-        ("a woman feeding a dog on a bench", "feeding", True),
-        ("a man on a bench waves to a child", "waves", True),
-        ("a close shot of two men shaking hands", "two", True),
-        ("close-up of a flock of birds", "close up of", False),
-        ("a woman stands in a gym", "gym", True),
-        ("a frog jumps into a pond", "jumps into", True),
-        ("a squirrel runs up a tree", "runs", True),
-        ("a leaf floats on the water", "floats", True),
-        ("a fishing boat lies on the beach", "lies", True),
-        ("a woman wearing glasses waves", "glasses", True),
-        ("a fan spins above a table", "above", True),
-        ("a dog sleeps under a table", "under", True),
-        ("a cat stands under a table", "under", True),
-        ("a bicycle lies on the beach", "lies", False),
-    ],
-)
-def test_a_word_is_shown_as_the_picture_has_it(text, word, is_shown):
-    assert (word in report(text).shown) == is_shown

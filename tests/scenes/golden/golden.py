@@ -10,8 +10,6 @@ plain values; `filmed.npz` holds the pictures and the truth of those in `filmed.
 these scenes: a change of reading changes no picture.
 """
 
-from __future__ import annotations
-
 import gzip
 import hashlib
 import json

@@ -10,8 +10,6 @@ reports and with what holds of their bodies. Places, lights and effects have sma
 truth, too.
 """
 
-from __future__ import annotations
-
 import gzip
 import itertools
 import json

@@ -4,6 +4,7 @@ import tomllib
 
 import numpy as np
 import pytest
+from tests.examples import one_of
 from tests.scenes.golden.golden import (
     decided,
     differing,
@@ -20,16 +21,17 @@ from texvent_scenes.scene_input import list_nouns, list_words
 from texvent_scenes.spec.data import scene_from_data
 from texvent_scenes.spec.files import scene_text
 
-PARTS = 16
-"""Of the rows: a brief run has a few."""
+PARTS = 15
+"""Of the rows: a brief run has one."""
 FILMS, WORDS = stored_films(), list_words(list_nouns())
 
 
 def test_sentences_mean_what_they_meant():
     stored = stored_scenes()
     assert list(stored) == read_lines("sentences.txt")
-    others = [one for one in stored if decided(read_scene(one)) != decided(stored[one])]
-    assert not others, f"{len(others)} of {len(stored)}, such as {others[:5]}"
+    tried = [*stored][:: one_of()]
+    others = [one for one in tried if decided(read_scene(one)) != decided(stored[one])]
+    assert not others, f"{len(others)} of {len(tried)}, such as {others[:5]}"
 
 
 def test_files_say_all_that_sentences_say():

@@ -5,8 +5,6 @@ double cone cut at its apex). A ray is inside such a solid between two parameter
 shape between the last entry and the first exit.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from texvent_scenes.rendered_scene import Float64Array, Shape

@@ -1,7 +1,5 @@
 """What prompts are expected to say, as facts and in a line, and what a scene says."""
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Callable, Mapping
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The IMU: integrated, it returns the pose; its noise has the densities stated."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
@@ -74,7 +72,7 @@ def first_velocity(scene: RenderedScene, offset: np.ndarray) -> np.ndarray:
         "a bus drives left, the camera follows it, handheld",
     ],
 )
-def test_integrating_the_imu_returns_the_pose_within_a_millimetre(prompt: str) -> None:
+def test_integrating_the_imu_returns_the_pose_within_a_millimetre(prompt):
     scene = scene_of(prompt)
     offset = np.eye(4)
     offset[:3, :3], offset[:3, 3] = turned(0.4), (0.05, -0.02, 0.03)
@@ -88,9 +86,7 @@ def test_integrating_the_imu_returns_the_pose_within_a_millimetre(prompt: str) -
 
 
 @pytest.mark.parametrize("offset", [(0.1, 0.0, 0.0), (-0.02, 0.05, 0.1), (0.0, 0.0, 0.0)])
-def test_an_imu_off_the_axis_feels_centripetal_and_tangential_acceleration(
-    offset: tuple[float, float, float],
-) -> None:
+def test_an_imu_off_the_axis_feels_centripetal_and_tangential_acceleration(offset):
     """On a circle of 2 m, the camera along its path, at ω = 1.5 + 4 t rad/s to the left.
 
     The camera's right points away from the centre, so right is the radius, forward the tangent.
@@ -115,7 +111,7 @@ def test_an_imu_off_the_axis_feels_centripetal_and_tangential_acceleration(
     np.testing.assert_allclose(samples.position[0], [out, forward, -down], atol=1e-12)
 
 
-def test_an_imu_at_rest_feels_gravity_alone_wherever_it_is_and_however_it_is_turned() -> None:
+def test_an_imu_at_rest_feels_gravity_alone_wherever_it_is_and_however_it_is_turned():
     mount = np.eye(4)
     mount[:3, :3], mount[:3, 3] = rotation_of(np.array([0.3, -1.1, 0.7])), (0.1, 0.2, 0.3)
     scene = HandScene(camera_at=lambda time: PosedCamera(np.array([5.0, 6.0, 7.0]), LEVEL, 1.0))
@@ -135,7 +131,7 @@ def allan_deviation(values: np.ndarray, samples: int) -> float:
 
 @pytest.mark.long
 @pytest.mark.parametrize("sensor", ["acceleration", "rate"])
-def test_allan_deviation_returns_the_stated_densities(sensor: str) -> None:
+def test_allan_deviation_returns_the_stated_densities(sensor):
     """White noise N: σ(τ) = N / √τ. Walk K: σ(τ) = K √(τ / 3). IEEE Std 952, annex C."""
     rate_hz, count = 200.0, 400_000
     still = ImuSamples(
@@ -154,7 +150,7 @@ def test_allan_deviation_returns_the_stated_densities(sensor: str) -> None:
         assert allan_deviation(values, 200) == pytest.approx(expected, rel=0.1)
 
 
-def test_noise_is_keyed_by_the_seed_starts_without_bias_and_differs_in_every_axis() -> None:
+def test_noise_is_keyed_by_the_seed_starts_without_bias_and_differs_in_every_axis():
     still = ImuSamples(
         np.arange(4000), *(np.zeros((4000, 3)) for _ in range(3)), np.zeros((1, 3, 3))
     )
@@ -170,12 +166,12 @@ def test_noise_is_keyed_by_the_seed_starts_without_bias_and_differs_in_every_axi
     np.testing.assert_allclose(np.corrcoef(np.concatenate(columns, axis=1).T), np.eye(12), atol=0.1)
 
 
-def test_times_are_whole_microseconds_of_the_rate() -> None:
+def test_times_are_whole_microseconds_of_the_rate():
     assert sample_times_us(300.0, 10_000).tolist() == [0, 3333, 6667, 10_000]
     assert len(sample_times_us(1000.0, 2_000_000)) == 2001
 
 
-def test_across_a_corner_of_the_path_it_leads_to_the_same_pose() -> None:
+def test_across_a_corner_of_the_path_it_leads_to_the_same_pose():
     def camera_at(time: float) -> PosedCamera:
         return PosedCamera(np.array([0.0, 0.0, abs(time - 0.5)]), LEVEL, 1.0)
 

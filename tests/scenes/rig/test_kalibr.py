@@ -1,7 +1,5 @@
 """Rig files: as Kalibr writes them, and by hand; what is wrong in them is named."""
 
-from __future__ import annotations
-
 import warnings
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -62,7 +60,7 @@ def write(folder: Path, text: str, name: str = "rig.yaml") -> Path:
     return path
 
 
-def test_a_file_of_kalibr_is_read(tmp_path: Path) -> None:
+def test_a_file_of_kalibr_is_read(tmp_path):
     rig, noise = read_rig(write(tmp_path, KALIBR), SIZE)
     first, second = rig.cameras
     assert noise is None
@@ -78,7 +76,7 @@ def test_a_file_of_kalibr_is_read(tmp_path: Path) -> None:
     assert rig.first_from_imu[:3, 3].tolist() == [0.01, 0.02, 0.03]
 
 
-def test_what_is_written_reads_back_the_same(tmp_path: Path) -> None:
+def test_what_is_written_reads_back_the_same(tmp_path):
     rig, _ = read_rig(write(tmp_path, KALIBR), SIZE)
     topics = {camera.name: f"/{camera.name}/image_raw" for camera in rig.cameras}
     text = camchain(rig, topics, has_imu=True)
@@ -89,7 +87,7 @@ def test_what_is_written_reads_back_the_same(tmp_path: Path) -> None:
     np.testing.assert_allclose(again.first_from_imu, rig.first_from_imu, atol=1e-15)
 
 
-def test_names_of_the_fields_are_kalibrs(tmp_path: Path) -> None:
+def test_names_of_the_fields_are_kalibrs(tmp_path):
     rig, _ = read_rig(write(tmp_path, KALIBR), SIZE)
     written = yaml.safe_load(camchain(rig, {"cam0": "/a", "cam1": "/b"}, has_imu=True))
     given = yaml.safe_load(KALIBR)
@@ -100,7 +98,7 @@ def test_names_of_the_fields_are_kalibrs(tmp_path: Path) -> None:
     assert "T_cam_imu" not in alone["cam0"]
 
 
-def test_imu_yaml_has_kalibrs_fields() -> None:
+def test_imu_yaml_has_kalibrs_fields():
     noise = IMU_NOISES["adis16448"]
     written = yaml.safe_load(imu_yaml(noise, 200.0, "/imu0"))
     assert written == {
@@ -113,14 +111,14 @@ def test_imu_yaml_has_kalibrs_fields() -> None:
     }
 
 
-def test_without_distortion_radtan_with_zeros_is_written() -> None:
+def test_without_distortion_radtan_with_zeros_is_written():
     rig = Rig((RigCamera("cam0", SIZE, Lens(300.0, 300.0, 173.0, 130.0)),))
     entry = yaml.safe_load(camchain(rig, {}, has_imu=False))["cam0"]
     assert (entry["distortion_model"], entry["distortion_coeffs"]) == ("radtan", [0.0] * 4)
     assert entry["intrinsics"] == [300.0, 300.0, 172.5, 129.5]
 
 
-def test_short_forms_of_a_file_by_hand(tmp_path: Path) -> None:
+def test_short_forms_of_a_file_by_hand(tmp_path):
     """90° across 346 px: f = 173. The second camera is to the right and looks to the right."""
     text = """
     [cam0]
@@ -146,7 +144,7 @@ def test_short_forms_of_a_file_by_hand(tmp_path: Path) -> None:
 
 
 @given(degrees=st.lists(st.floats(-170.0, 170.0), min_size=3, max_size=3))
-def test_a_camera_is_turned_about_x_then_y_then_z_of_the_one_before(degrees: list[float]) -> None:
+def test_a_camera_is_turned_about_x_then_y_then_z_of_the_one_before(degrees):
     with TemporaryDirectory() as folder:
         text = f"cam0: {{}}\ncam1: {{rotation: {degrees}}}"
         second = read_rig(write(Path(folder), text), SIZE)[0].cameras[1]
@@ -167,9 +165,7 @@ WRITTEN = {
 
 @pytest.mark.parametrize("imu0", [None, ImuNoise(1e-3, 2e-3, 5e-4, 6e-5)])
 @pytest.mark.parametrize("name", [*IMU_NOISES, *WRITTEN])
-def test_the_noise_is_that_of_the_file_or_name_and_then_of_the_rig(
-    tmp_path: Path, name: str, imu0: ImuNoise | None
-) -> None:
+def test_the_noise_is_that_of_the_file_or_name_and_then_of_the_rig(tmp_path, name, imu0):
     rig = {"cam0": {}, **({"imu0": vars(imu0)} if imu0 else {})}
     path = write(tmp_path, yaml.safe_dump(rig))
     said = str(write(tmp_path, WRITTEN[name], name)) if name in WRITTEN else name
@@ -182,19 +178,19 @@ def test_the_noise_is_that_of_the_file_or_name_and_then_of_the_rig(
     assert [one.name for one in recording.rig.cameras] == ["cam0"]
 
 
-def test_a_sensor_by_name_has_its_size(tmp_path: Path) -> None:
+def test_a_sensor_by_name_has_its_size(tmp_path):
     text = "cam0: {sensor: davis240c}\ncam1: {sensor: evk4, baseline: 0.1}"
     first, second = read_rig(write(tmp_path, text), SIZE)[0].cameras
     assert (first.size, first.sensor) == (SensorSize(240, 180), "davis240c")
     assert (second.size, second.sensor) == (SensorSize(1280, 720), "evk4")
 
 
-def test_numbers_that_yaml_reads_as_text_are_numbers(tmp_path: Path) -> None:
+def test_numbers_that_yaml_reads_as_text_are_numbers(tmp_path):
     text = KALIBR.replace("1.0e-05]", "1e-05]")
     assert read_rig(write(tmp_path, text), SIZE)[0].cameras[0].lens is not None
 
 
-def test_places_by_the_imu_alone(tmp_path: Path) -> None:
+def test_places_by_the_imu_alone(tmp_path):
     chain = yaml.safe_load(KALIBR)
     chain["cam1"]["T_cam_imu"] = chain["cam0"]["T_cam_imu"]
     del chain["cam1"]["T_cn_cnm1"]
@@ -202,12 +198,12 @@ def test_places_by_the_imu_alone(tmp_path: Path) -> None:
     np.testing.assert_allclose(rig.cameras[1].from_first, np.eye(4), atol=1e-15)
 
 
-def test_stereo_puts_the_second_camera_to_the_right() -> None:
+def test_stereo_puts_the_second_camera_to_the_right():
     second = stereo_rig(SIZE, 0.12).cameras[1]
     assert np.linalg.inv(second.from_first)[:3, 3].tolist() == [0.12, 0.0, 0.0]
 
 
-def test_a_time_shift_is_named(tmp_path: Path) -> None:
+def test_a_time_shift_is_named(tmp_path):
     text = KALIBR.replace("timeshift_cam_imu: 0.0", "timeshift_cam_imu: 0.004", 1)
     with pytest.warns(TexventWarning, match="one clock"):
         read_rig(write(tmp_path, text), SIZE)
@@ -232,7 +228,7 @@ def test_a_time_shift_is_named(tmp_path: Path) -> None:
         ("cam0:", "cam/0:", "a camera's name must be"),
     ],
 )
-def test_what_is_wrong_is_named(tmp_path: Path, old: str, new: str, words: str) -> None:
+def test_what_is_wrong_is_named(tmp_path, old, new, words):
     assert old in KALIBR
     with pytest.raises(ConfigError, match=words):
         read_rig(write(tmp_path, KALIBR.replace(old, new, 1)), SIZE)

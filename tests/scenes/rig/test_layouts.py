@@ -1,7 +1,5 @@
 """Recordings in every layout, read back by what people load them with."""
 
-from __future__ import annotations
-
 import csv
 import json
 from pathlib import Path
@@ -59,7 +57,7 @@ def facts_of(folder: Path) -> dict:
 
 
 @pytest.mark.long
-def test_native_folder_holds_all_and_says_how_it_was_made(native: Path) -> None:
+def test_native_folder_holds_all_and_says_how_it_was_made(native):
     facts = facts_of(native)
     found = sorted(str(one.relative_to(native)) for one in native.rglob("*") if one.is_file())
     assert found == sorted(facts["files"])
@@ -81,7 +79,7 @@ def test_native_folder_holds_all_and_says_how_it_was_made(native: Path) -> None:
     assert len(set(facts["pixel_seeds"].values())) == 2
 
 
-def test_native_imu_and_poses_are_rows_of_their_formats(native: Path) -> None:
+def test_native_imu_and_poses_are_rows_of_their_formats(native):
     imu = np.loadtxt(native / "imu.csv", delimiter=",", comments="#")
     poses = np.loadtxt(native / "poses.txt")
     assert imu.shape == (26, 7)
@@ -95,7 +93,7 @@ def test_native_imu_and_poses_are_rows_of_their_formats(native: Path) -> None:
     assert np.linalg.norm(right[0, 1:4] - truth[0, 1:4]) == pytest.approx(0.1, abs=1e-8)
 
 
-def test_only_a_recording_is_replaced(native: Path, tmp_path: Path) -> None:
+def test_only_a_recording_is_replaced(native, tmp_path):
     small = {**OPTIONS, "frames": None, "exposure": 0.0, "stereo": None, "duration": 0.1}
     out = rig.record(PROMPT, tmp_path / "one", **small)
     with pytest.raises(OutputError, match="exists already"):
@@ -108,7 +106,7 @@ def test_only_a_recording_is_replaced(native: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.long
-def test_dsec_frames_return_to_the_raw_pixels(tmp_path: Path, native: Path) -> None:
+def test_dsec_frames_return_to_the_raw_pixels(tmp_path, native):
     """Through rectification and back, frames differ from the raw ones by interpolation only."""
     lenses = """
     cam0: {intrinsics: [70, 70, 31, 24], distortion_model: radtan,
@@ -152,7 +150,7 @@ def test_dsec_frames_return_to_the_raw_pixels(tmp_path: Path, native: Path) -> N
 
 @pytest.mark.long
 @pytest.mark.parametrize("layout", ["rosbag1", "mcap"])
-def test_bags_are_read_back_by_rosbags(layout: str, tmp_path: Path, native: Path) -> None:
+def test_bags_are_read_back_by_rosbags(layout, tmp_path, native):
     pytest.importorskip("rosbags")
     out = rig.record(PROMPT, tmp_path / "bag", layout=layout, **OPTIONS)
     path = out / ("rig.bag" if layout == "rosbag1" else "rig.mcap")
@@ -224,9 +222,7 @@ def types_with_events():  # type: ignore[no-untyped-def]
         (["--frames", "2", "--exposure", "0.4", "--duration", "0.3"], "no frame at 2 per second"),
     ],
 )
-def test_bad_input_is_one_clear_line(
-    words: list[str], complaint: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_bad_input_is_one_clear_line(words, complaint, tmp_path, capsys):
     out = tmp_path / "out"
     code = main(["rig", "a ball", "-o", str(out), "--sensor", "32x24", *words])
     if "--sensor" not in words and "--rig" in words and "both" not in complaint:
@@ -237,12 +233,12 @@ def test_bad_input_is_one_clear_line(
     assert not out.exists()
 
 
-def test_a_zooming_camera_is_refused(tmp_path: Path) -> None:
+def test_a_zooming_camera_is_refused(tmp_path):
     with pytest.raises(ConfigError, match="the camera zooms"):
         rig.record("a car, the camera zooms in", tmp_path / "out", progress=False)
 
 
-def test_the_command_says_what_it_made(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_says_what_it_made(tmp_path, capsys):
     out = tmp_path / "made"
     code = main(["rig", "a ball", "-o", str(out), "--sensor", "32x24", "--duration", "0.1"])
     captured = capsys.readouterr()

@@ -1,7 +1,5 @@
 """Frames: blur is the mean of light over the exposure, rows of a rolling shutter follow in time."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from fractions import Fraction
 

@@ -1,7 +1,5 @@
 """Stereo: pairs of events, matched by row and time alone, triangulate to the true depth."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path

@@ -63,11 +63,6 @@ def test_pieces_of_what_breaks_fly_from_where_it_was_and_come_to_rest(text, noun
     assert (np.abs(last - before).max() < 1e-9) == is_on_floor
 
 
-@pytest.mark.parametrize("text", ["a dog breaks", "a car shatters", "a man bursts"])
-def test_what_has_no_pieces_does_not_break(text):
-    assert {"breaks", "shatters", "bursts"} & {*staged(text)[1].not_understood}
-
-
 @pytest.mark.parametrize(
     ("text", "noun", "target"),
     [("a basketball flies through the hoop", "basketball", "basketball hoop"),
@@ -87,10 +82,6 @@ def test_what_goes_into_something_comes_down_through_its_rim(text, noun, target)
     assert not faults(text)
     assert aside.min() < rim.radius
     assert np.linalg.norm(places[-1, :2] - middle[:2]) < 0.5 * max(goal.size_m, 0.15)
-
-
-def test_what_is_too_large_for_a_cup_is_not_said_to_be_in_it():
-    assert "into" in " ".join(faults("a basketball falls into a cup"))
 
 
 def test_a_ball_that_is_kicked_into_a_net_stays_there():

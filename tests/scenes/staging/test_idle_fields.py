@@ -196,20 +196,6 @@ def test_a_field_without_effect_is_named_with_what_would_have_one(fields, path):
     assert str(caught.value).startswith(f"{path} has no effect: ")
 
 
-@pytest.mark.parametrize(
-    ("prompt", "direction"),
-    [
-        ("a car drives back and forth", "to and fro"),
-        ("a ball rolls to and fro", "to and fro"),
-        ("a bird flies up and down", "up and down"),
-    ],
-)
-def test_a_way_back_and_forth_of_a_sentence_is_kept(prompt, direction):
-    reading = read(prompt)
-    ((motion,),) = (one.motions for one in reading.scene.objects)
-    assert motion.direction == direction
-
-
 def test_words_whose_fields_change_nothing_are_not_shown():
     words = understand("a red car drives left quickly at 20 km/h", NOUNS).words
     assert "quickly" not in words.shown

@@ -1,7 +1,5 @@
 """Clips of a batch: ESIM's events, arrays that equal the representations of events, and draws."""
 
-from __future__ import annotations
-
 import itertools
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Clips on a GPU give the arrays and events of the CPU, bit for bit."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

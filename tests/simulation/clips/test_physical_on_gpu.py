@@ -1,7 +1,5 @@
 """Clips of `physical` on a GPU, each with constants of its own, are those of the CPU."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any
 

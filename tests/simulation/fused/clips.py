@@ -1,7 +1,5 @@
 """Small clips, drawn and fused."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

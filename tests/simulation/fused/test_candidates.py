@@ -1,7 +1,5 @@
 """Candidates by hand, and bounds that leave out no pixel; `test_fused` has their events."""
 
-from __future__ import annotations
-
 import itertools
 import math
 

@@ -1,7 +1,5 @@
 """Pairs whose frames are not drawn give the events of the drawn frames, bit for bit."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

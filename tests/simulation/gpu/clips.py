@@ -1,7 +1,5 @@
 """Small clips for the GPU backend, and what the CPU makes of them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -5,8 +5,6 @@ kernels as it would on a GPU; each launch is compiled for exactly its arguments 
 so that what the engine counts is made up.
 """
 
-from __future__ import annotations
-
 import json
 import re
 import subprocess

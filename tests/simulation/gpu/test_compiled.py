@@ -1,7 +1,5 @@
 """The kernels compile to machine code for an H100 or H200, no GPU needed, and fit its registers."""
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

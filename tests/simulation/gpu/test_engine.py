@@ -1,7 +1,5 @@
 """The GPU backend gives the CPU's events: every option, frame type, chunk size."""
 
-from __future__ import annotations
-
 import itertools
 from dataclasses import replace
 from typing import Any

@@ -1,7 +1,5 @@
 """Functions of GPU kernels give the bits of those of the CPU, on every branch of them."""
 
-from __future__ import annotations
-
 import itertools
 from typing import Any
 

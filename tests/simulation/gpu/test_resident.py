@@ -1,7 +1,5 @@
 """A run whose frames stay on a device gives the packets of the CPU, and hardly ever waits."""
 
-from __future__ import annotations
-
 import gc
 import sys
 import threading

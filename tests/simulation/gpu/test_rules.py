@@ -1,7 +1,5 @@
 """What the host works out for the GPU kernels: byte tables and times."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

@@ -1,7 +1,5 @@
 """Cameras: every constant has a source, and the preset is those constants."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import pytest

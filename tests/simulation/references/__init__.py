@@ -3,8 +3,6 @@
 A kernel of texvent must return the bits of its definition.
 """
 
-from __future__ import annotations
-
 import importlib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager

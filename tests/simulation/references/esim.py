@@ -1,7 +1,5 @@
 """The definition of ESIM's crossing times, in NumPy float64."""
 
-from __future__ import annotations
-
 import numpy as np
 from tests.simulation.references.ramp import Ramp, cross_ramp
 from tests.simulation.references.sorting import sort_events

@@ -1,7 +1,5 @@
 """The definition of noise by blocks of pixels, in NumPy. Other backends must return equal bits."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from texvent.simulation.random.draws import Purpose, draw_uniforms, draw_words

@@ -1,7 +1,5 @@
 """The definition of the pixel circuit: one pixel after the other, event by event."""
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """The definition of Poisson arrivals by gaps, in NumPy float64: all rows at once."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """The definition of threshold crossings on a straight line, pixel by pixel."""
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

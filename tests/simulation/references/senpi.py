@@ -1,7 +1,5 @@
 """The definition of SENPI: one pixel after the other."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The definition of a packet's order; sorts where nothing is compiled."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from texvent.simulation.packets import SortedEvents, UnsortedEvents

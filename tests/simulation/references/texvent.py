@@ -1,7 +1,5 @@
 """The definition of the paper's pixel model (Eqs. 5-7), on whole frames in the paper's order."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The definition of v2e's pixels, in NumPy float64: low-pass, then emit and reset."""
 
-from __future__ import annotations
-
 import numpy as np
 from tests.simulation.references.ramp import Ramp, cross_ramp
 

@@ -1,7 +1,5 @@
 """The definition of first-passage sampling: one pixel and one event after the other."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

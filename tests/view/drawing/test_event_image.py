@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -12,26 +10,26 @@ from texvent.view.drawing.palettes import PALETTES, get_palette
 PAPER = get_palette("paper")
 
 
-def test_one_event_each_shows_the_palettes_exact_colours() -> None:
+def test_one_event_each_shows_the_palettes_exact_colours():
     counts = np.array([[[0, 1, 0]], [[1, 0, 0]]])
     assert draw_events(counts, PAPER).tolist() == [
         [list(PAPER.on), list(PAPER.off), list(PAPER.background)]
     ]
 
 
-def test_as_many_on_as_off_mix() -> None:
+def test_as_many_on_as_off_mix():
     counts = np.array([[[1]], [[1]]])
     assert draw_events(counts, PAPER, ceiling=2).tolist() == [[[128, 0, 128]]]
 
 
-def test_more_events_are_stronger_and_the_scale_saturates() -> None:
+def test_more_events_are_stronger_and_the_scale_saturates():
     counts = np.array([[[0, 0, 0, 0]], [[1, 5, 10, 500]]])
     red = draw_events(counts, PAPER, ceiling=10)[0, :, 0].tolist()
     assert red[0] > red[1] > red[2] == red[3] == 0
     assert red[0] < 255, "a single event stays visible"
 
 
-def test_the_ceiling_follows_the_data_and_ignores_a_hot_pixel() -> None:
+def test_the_ceiling_follows_the_data_and_ignores_a_hot_pixel():
     counts = np.zeros((2, 10, 10), dtype=int)
     assert count_ceiling(counts) == 1.0
     counts[1] = 4
@@ -40,9 +38,7 @@ def test_the_ceiling_follows_the_data_and_ignores_a_hot_pixel() -> None:
 
 
 @given(seed=st.integers(0, 2**16), rate=st.floats(0.001, 300.0), name=st.sampled_from([*PALETTES]))
-def test_an_image_is_never_blank_and_never_outside_its_colours(
-    seed: int, rate: float, name: str
-) -> None:
+def test_an_image_is_never_blank_and_never_outside_its_colours(seed, rate, name):
     palette = get_palette(name)
     counts = np.random.default_rng(seed).poisson(rate, (2, 12, 16))
     # In v2e's palette, as in v2e, as many ON as OFF give the background's grey.
@@ -64,22 +60,20 @@ def test_an_image_is_never_blank_and_never_outside_its_colours(
         (np.array([[0.4, 127.5, 254.6]], dtype=np.float64), [0, 128, 255]),
     ],
 )
-def test_frames_of_every_depth_are_shown_as_8_bit_rgb(
-    pixels: np.ndarray, expected: list[int]
-) -> None:
+def test_frames_of_every_depth_are_shown_as_8_bit_rgb(pixels, expected):
     image = frame_image(Frame(pixels, 0))
     assert image.dtype == np.uint8
     assert image[0].tolist() == [[value] * 3 for value in expected]
 
 
-def test_the_default_is_the_papers_on_blue_off_red_on_white() -> None:
+def test_the_default_is_the_papers_on_blue_off_red_on_white():
     paper = next(iter(PALETTES.values()))
     assert paper.name == "paper"
     assert (paper.on, paper.off, paper.background) == ((0, 0, 255), (255, 0, 0), (255, 255, 255))
 
 
 @pytest.mark.parametrize("name", PALETTES)
-def test_polarities_background_and_ink_can_be_told_apart(name: str) -> None:
+def test_polarities_background_and_ink_can_be_told_apart(name):
     palette = get_palette(name)
     colours = [palette.on, palette.off, palette.background]
     for index, one in enumerate(colours):
@@ -91,7 +85,7 @@ def test_polarities_background_and_ink_can_be_told_apart(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", list(PALETTES))
-def test_in_dark_mode_no_background_is_light_and_events_stand_out(name: str) -> None:
+def test_in_dark_mode_no_background_is_light_and_events_stand_out(name):
     palette = PALETTES[name].dark
     background = sum(palette.background)
     assert background <= 3 * 128

@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -18,7 +16,7 @@ SIZES = [
 
 
 @pytest.mark.parametrize("y", [0, 1, 19, 20, 21, 79])
-def test_a_label_is_whole_above_its_corner_or_below_it_at_the_edge(y: int) -> None:
+def test_a_label_is_whole_above_its_corner_or_below_it_at_the_edge(y):
     image = blank(120, 120, (0, 0, 0))
     draw_label(image, "car", (30, y), (9, 200, 9), height=10)
     rows = np.flatnonzero((image == (9, 200, 9)).all(axis=2).any(axis=1))
@@ -27,9 +25,7 @@ def test_a_label_is_whole_above_its_corner_or_below_it_at_the_edge(y: int) -> No
 
 @pytest.mark.parametrize("size", SIZES, ids=str)
 @pytest.mark.parametrize("side_by_side", [True, False])
-def test_every_sensor_gives_an_even_image_with_both_panels(
-    size: SensorSize, side_by_side: bool
-) -> None:
+def test_every_sensor_gives_an_even_image_with_both_panels(size, side_by_side):
     layout = PanelLayout(size, get_palette("paper"), side_by_side=side_by_side)
     frame = blank(size.width, size.height, (10, 200, 30))
     events = blank(size.width, size.height, (0, 0, 255))
@@ -46,11 +42,11 @@ def test_every_sensor_gives_an_even_image_with_both_panels(
     ("size", "factor"),
     [(SensorSize(346, 260), 2), (SensorSize(64, 48), 10), (SensorSize(1280, 720), 1)],
 )
-def test_small_sensors_are_enlarged_by_a_whole_factor(size: SensorSize, factor: int) -> None:
+def test_small_sensors_are_enlarged_by_a_whole_factor(size, factor):
     assert PanelLayout(size, get_palette("paper")).factor == factor
 
 
-def test_events_are_enlarged_without_inventing_colours() -> None:
+def test_events_are_enlarged_without_inventing_colours():
     layout = PanelLayout(SensorSize(4, 4), get_palette("paper"), side_by_side=False)
     events = blank(4, 4, (255, 255, 255))
     events[1, 2] = (0, 0, 255)
@@ -64,9 +60,7 @@ def test_events_are_enlarged_without_inventing_colours() -> None:
 
 
 @pytest.mark.parametrize("name", PALETTES)
-def test_the_legend_shows_on_before_off_and_their_mixture_in_the_palettes_colours(
-    name: str,
-) -> None:
+def test_the_legend_shows_on_before_off_and_their_mixture_in_the_palettes_colours(name):
     palette = get_palette(name)
     legend = draw_legend(palette, 13)
     middle = legend[legend.shape[0] // 2]

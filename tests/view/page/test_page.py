@@ -1,15 +1,11 @@
-from __future__ import annotations
-
 import base64
 import html
 import json
 import os
 import re
 import webbrowser
-from pathlib import Path
 
 import numpy as np
-import pytest
 
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
@@ -38,7 +34,7 @@ def column(data: dict[str, object], name: str, dtype: str) -> np.ndarray:
     return np.frombuffer(base64.b64decode(str(data[name])), dtype)
 
 
-def test_the_page_holds_the_events_and_the_facts(tmp_path: Path) -> None:
+def test_the_page_holds_the_events_and_the_facts(tmp_path):
     events = make_events(500, {"prompt": "two trees", "seed": 0, "settings": {"alpha": 30}})
     page = show(events, tmp_path / "out.html").read_text("utf-8")
     data = data_of(page)
@@ -57,7 +53,7 @@ def test_the_page_holds_the_events_and_the_facts(tmp_path: Path) -> None:
     assert "500 (50.0% ON)" in page
 
 
-def test_a_sample_is_announced_with_both_numbers(tmp_path: Path) -> None:
+def test_a_sample_is_announced_with_both_numbers(tmp_path):
     with PageWriter(tmp_path / "out.html", size=SIZE, sample_limit=100) as writer:
         for start in range(0, 1000, 130):
             writer.append(make_events(1000)[start : start + 130])
@@ -66,14 +62,14 @@ def test_a_sample_is_announced_with_both_numbers(tmp_path: Path) -> None:
     assert data_of(page)["count"] == 100
 
 
-def test_nothing_is_asked_of_any_server(tmp_path: Path) -> None:
+def test_nothing_is_asked_of_any_server(tmp_path):
     page = show(make_events(50, {"prompt": "a car"}), tmp_path / "out.html").read_text("utf-8")
     assert not re.search(r"https?:|//[a-z]+\.|@import|url\(|fetch\(|XMLHttp|WebSocket", page)
     assert "default-src 'none'" in page
     assert not re.search(r"\{\{\w+\}\}", page), "every placeholder is filled"
 
 
-def test_text_from_the_user_stays_text(tmp_path: Path) -> None:
+def test_text_from_the_user_stays_text(tmp_path):
     metadata = {"prompt": HOSTILE, HOSTILE: HOSTILE, "nested": {HOSTILE: [HOSTILE]}}
     page = show(make_events(50, metadata), tmp_path / "out.html").read_text("utf-8")
     plain = show(make_events(50, {"prompt": "x"}), tmp_path / "plain.html").read_text("utf-8")
@@ -84,22 +80,20 @@ def test_text_from_the_user_stays_text(tmp_path: Path) -> None:
     assert html.escape(HOSTILE) in page, "a placeholder inside user text is not filled"
 
 
-def test_no_events_still_give_a_page(tmp_path: Path) -> None:
+def test_no_events_still_give_a_page(tmp_path):
     page = show(EventStream.empty(SIZE), tmp_path / "out.html").read_text("utf-8")
     assert data_of(page)["count"] == 0
     assert "No events." in page
 
 
-def test_the_rate_curve_is_drawn_without_any_script(tmp_path: Path) -> None:
+def test_the_rate_curve_is_drawn_without_any_script(tmp_path):
     page = show(make_events(500), tmp_path / "out.html").read_text("utf-8")
     areas = dict(re.findall(r'class="(on|off)-area" d="M0 100V([\d.]+)H', page))
     # ON goes up (smaller y), OFF goes down.
     assert float(areas["on"]) < 100 < float(areas["off"])
 
 
-def test_without_a_path_the_browser_opens_a_temporary_page(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_without_a_path_the_browser_opens_a_temporary_page(monkeypatch, tmp_path):
     opened: list[str] = []
     monkeypatch.setattr(webbrowser, "open", opened.append)
     monkeypatch.setenv("TMPDIR", str(tmp_path))

@@ -1,7 +1,5 @@
 """The page opened in a real browser: it draws, it obeys, and it asks nothing of the network."""
 
-from __future__ import annotations
-
 import contextlib
 from collections.abc import Iterator
 from pathlib import Path
@@ -127,9 +125,7 @@ def coloured_pixels(image: np.ndarray) -> tuple[int, int]:
 
 
 @pytest.mark.parametrize("size", [(1280, 800), (390, 844)])
-def test_it_opens_playing_with_every_control_on_the_first_screen(
-    browser: Any, page: Path, size: tuple[int, int]
-) -> None:
+def test_it_opens_playing_with_every_control_on_the_first_screen(browser, page, size):
     with emulated(browser, size=size):
         browser.get(page.as_uri())
         run(browser, "")
@@ -146,9 +142,7 @@ def test_it_opens_playing_with_every_control_on_the_first_screen(
         )
 
 
-def test_it_opens_on_the_busiest_window_and_rests_where_motion_is_unwanted(
-    browser: Any, tmp_path: Path
-) -> None:
+def test_it_opens_on_the_busiest_window_and_rests_where_motion_is_unwanted(browser, tmp_path):
     # 1 s with an event per ms, and 900 more between 0.6 and 0.63 s.
     times = np.sort(np.r_[np.arange(0, 1_000_000, 1000), np.linspace(600_000, 629_999, 900)])
     zeros = np.zeros(len(times), np.int64)
@@ -164,9 +158,7 @@ def test_it_opens_on_the_busiest_window_and_rests_where_motion_is_unwanted(
 
 
 @pytest.mark.parametrize(("scheme", "is_dark"), [("dark", True), ("light", False)])
-def test_the_cloud_is_as_dark_as_the_visitor_wants(
-    browser: Any, page: Path, scheme: str, is_dark: bool
-) -> None:
+def test_the_cloud_is_as_dark_as_the_visitor_wants(browser, page, scheme, is_dark):
     with emulated(browser, size=(1280, 800), prefers_color_scheme=scheme):
         open_whole(browser, page)
         for name in ("cloud-canvas", "rate-curve"):
@@ -177,16 +169,14 @@ def test_the_cloud_is_as_dark_as_the_visitor_wants(
         assert 0.5 < blue / red < 2.0
 
 
-def test_the_page_asks_nothing_of_any_server_and_makes_no_complaint(
-    browser: Any, page: Path, requests_made: Any
-) -> None:
+def test_the_page_asks_nothing_of_any_server_and_makes_no_complaint(browser, page, requests_made):
     browser.get(page.as_uri())
     click(browser, "play")
     assert requests_made() == [page.as_uri()]
     assert browser.get_log("browser") == []
 
 
-def test_polarity_buttons_hide_one_colour(browser: Any, page: Path) -> None:
+def test_polarity_buttons_hide_one_colour(browser, page):
     open_whole(browser, page)
     click(browser, "toggle-off")
     blue, red = coloured_pixels(image_of(browser, "cloud-canvas"))
@@ -197,7 +187,7 @@ def test_polarity_buttons_hide_one_colour(browser: Any, page: Path) -> None:
     assert pressed == "false"
 
 
-def test_sliders_choose_the_time_and_the_video_follows(browser: Any, page: Path) -> None:
+def test_sliders_choose_the_time_and_the_video_follows(browser, page):
     browser.get(page.as_uri())
     slide(browser, "length", 100)
     slide(browser, "start", 505)
@@ -208,7 +198,7 @@ def test_sliders_choose_the_time_and_the_video_follows(browser: Any, page: Path)
     assert abs(grey - 120) < 4, "the frame that begins at 1.0 s"
 
 
-def test_playing_moves_the_window_and_space_stops_it(browser: Any, page: Path) -> None:
+def test_playing_moves_the_window_and_space_stops_it(browser, page):
     from selenium.webdriver.support.wait import WebDriverWait
 
     open_whole(browser, page)
@@ -223,7 +213,7 @@ def test_playing_moves_the_window_and_space_stops_it(browser: Any, page: Path) -
     assert text(browser, "start-text") == stopped
 
 
-def test_a_region_is_selected_by_dragging_and_by_typing(browser: Any, page: Path) -> None:
+def test_a_region_is_selected_by_dragging_and_by_typing(browser, page):
     open_whole(browser, page)
     before = sum(coloured_pixels(image_of(browser, "cloud-canvas")))
     drag(browser, "plane-canvas", (0.25, 0.25), (0.75, 0.75))
@@ -247,7 +237,7 @@ def test_a_region_is_selected_by_dragging_and_by_typing(browser: Any, page: Path
     assert text(browser, "shown-text").startswith("20,000 of")
 
 
-def test_dragging_on_the_curve_chooses_the_time(browser: Any, page: Path) -> None:
+def test_dragging_on_the_curve_chooses_the_time(browser, page):
     browser.get(page.as_uri())
     drag(browser, "rate-curve", (0.5, 0.5), (0.25, 0.5))
     np.testing.assert_allclose(window_on_the_curve(browser), [250, 500], atol=4)
@@ -257,7 +247,7 @@ def test_dragging_on_the_curve_chooses_the_time(browser: Any, page: Path) -> Non
     assert abs(sum(window_on_the_curve(browser)) / 2 - 700) < 4
 
 
-def test_keys_turn_the_cloud(browser: Any, page: Path) -> None:
+def test_keys_turn_the_cloud(browser, page):
     from selenium.webdriver.common.keys import Keys
 
     open_whole(browser, page)
@@ -274,9 +264,7 @@ def test_keys_turn_the_cloud(browser: Any, page: Path) -> None:
     assert text(browser, "start-text") == "1.000 s"
 
 
-def test_a_browser_without_webgl_says_what_is_missing_and_shows_the_rest(
-    browser: Any, page: Path
-) -> None:
+def test_a_browser_without_webgl_says_what_is_missing_and_shows_the_rest(browser, page):
     source = """const real = HTMLCanvasElement.prototype.getContext;
       HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
         return kind === "webgl" ? null : real.call(this, kind, ...rest);
@@ -293,7 +281,7 @@ def test_a_browser_without_webgl_says_what_is_missing_and_shows_the_rest(
     assert min(coloured_pixels(image_of(browser, "plane-canvas"))) > 50
 
 
-def test_a_recording_without_events_says_so(browser: Any, tmp_path: Path) -> None:
+def test_a_recording_without_events_says_so(browser, tmp_path):
     browser.get(show(EventStream.empty(SIZE), tmp_path / "empty.html").as_uri())
     assert browser.find_element("id", "cloud-fallback").text == "This recording holds no events."
     assert not browser.find_element("id", "controls").is_displayed()

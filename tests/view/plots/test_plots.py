@@ -1,7 +1,5 @@
 """Plots of events, against values by hand."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import pairwise
 
@@ -29,9 +27,7 @@ def at_times(*times: int) -> EventStream:
     step=st.fractions(Fraction(50, 3), 900, max_denominator=7),
     window=st.integers(1, 1000),
 )
-def test_windows_may_overlap_or_leave_gaps_and_count_the_events_in_them(
-    times: list[int], cut: int, step: Fraction, window: int
-) -> None:
+def test_windows_may_overlap_or_leave_gaps_and_count_the_events_in_them(times, cut, step, window):
     parts = [at_times(*times[:cut]), at_times(*times[cut:])]
     found = [
         (one.start_us, one.stop_us, one.event_count)
@@ -46,12 +42,12 @@ def test_windows_may_overlap_or_leave_gaps_and_count_the_events_in_them(
 
 
 @pytest.mark.parametrize(("span", "window"), [(10**7, 40_000), (500_000, 10_000), (3, 1)])
-def test_stills_gather_a_fiftieth_but_at_most_40_ms(span: int, window: int) -> None:
+def test_stills_gather_a_fiftieth_but_at_most_40_ms(span, window):
     assert still_window_us((5, 5 + span)) == window
 
 
 @pytest.mark.parametrize("packet", [1, 7, 1000])
-def test_slices_of_equal_count_hold_that_many_events_and_leave_none_out(packet: int) -> None:
+def test_slices_of_equal_count_hold_that_many_events_and_leave_none_out(packet):
     events = busy_stream()
     parts = (events[start : start + packet] for start in range(0, len(events), packet))
     windows = list(cut_counts(parts, size=events.size, count=60))
@@ -87,5 +83,5 @@ REFUSED: dict[str, Refusal] = {
 
 
 @pytest.mark.parametrize("name", REFUSED)
-def test_windows_and_images_have_limits(name: str) -> None:
+def test_windows_and_images_have_limits(name):
     check_refusal(REFUSED[name], None)

@@ -70,6 +70,7 @@ def test_a_model_without_intermediate_frames_is_further_from_the_truth(report):
     assert frames_only.normalised("stpp", report.references[0]) < 0.8
 
 
+@pytest.mark.long
 def test_the_rate_is_matched_on_the_fitting_seeds(report):
     for score in report.scores:
         assert score.is_matched

@@ -1,7 +1,5 @@
 """Tables 3 and 6: networks trained with a share of simulated clips and streams."""
 
-from __future__ import annotations
-
 import json
 import shutil
 from pathlib import Path
@@ -30,9 +28,7 @@ def words(folder: Path, *more: str) -> list[str]:
 
 
 @pytest.mark.parametrize("missing", ["train", "test", "texvent"])
-def test_a_folder_that_lacks_streams_is_refused_before_any_training(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], missing: str
-) -> None:
+def test_a_folder_that_lacks_streams_is_refused_before_any_training(tmp_path, capsys, missing):
     shutil.rmtree(write_streams(tmp_path) / missing)
     assert main(words(tmp_path)) == 2
     named = missing if missing != "texvent" else "of simulated streams"
@@ -41,7 +37,7 @@ def test_a_folder_that_lacks_streams_is_refused_before_any_training(
 
 @pytest.mark.detect
 @pytest.mark.parametrize("name", augmentation.CLASSIFIERS.values())
-def test_each_network_of_the_paper_scores_classes_of_two_channels(name: str) -> None:
+def test_each_network_of_the_paper_scores_classes_of_two_channels(name):
     import torch
 
     from texvent_lab.networks.torchvision_models import TorchvisionModel
@@ -52,9 +48,7 @@ def test_each_network_of_the_paper_scores_classes_of_two_channels(name: str) -> 
 
 
 @pytest.mark.detect
-def test_each_network_is_trained_alone_and_with_each_simulator(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_each_network_is_trained_alone_and_with_each_simulator(tmp_path, capsys, monkeypatch):
     small = {"SqueezeNet": augmentation.CLASSIFIERS["SqueezeNet"]}
     monkeypatch.setattr(augmentation, "CLASSIFIERS", small)
     folder, work = write_streams(tmp_path / "streams"), tmp_path / "work"
@@ -74,9 +68,7 @@ def test_each_network_is_trained_alone_and_with_each_simulator(
 
 
 @pytest.mark.detect
-def test_torchvisions_networks_are_read_back_and_refuse_what_they_cannot_take(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_torchvisions_networks_are_read_back_and_refuse_what_they_cannot_take(tmp_path, capsys):
     write_recordings(tmp_path / "recorded")
     text = (
         'data = {{recordings = "recorded", validation_split = "val", image_size = "{size}"}}\n'
@@ -99,9 +91,8 @@ def test_torchvisions_networks_are_read_back_and_refuse_what_they_cannot_take(
 
 @pytest.mark.torch
 def test_images_are_learnt_from_recordings_alone_and_with_simulated_clips(
-    pan_folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str],
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:  # fmt: skip
+    pan_folder, tmp_path, capsys, monkeypatch
+):
     pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
     monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "cache"))  # no weights of LPIPS
     monkeypatch.setattr(augmentation, "RECONSTRUCTORS", {"E2VID": "e2vid"})

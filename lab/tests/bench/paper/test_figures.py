@@ -1,7 +1,5 @@
 """The paper's figures: a column per simulator, a row per kind of picture."""
 
-from __future__ import annotations
-
 import dataclasses
 from pathlib import Path
 
@@ -37,8 +35,8 @@ def words(recording: Path, number: int, out: Path) -> list[str]:
 
 @pytest.mark.parametrize("number", [one for one in FIGURES if one != figures.ABLATION_FIGURE])
 def test_a_figure_shows_the_frame_the_recording_and_each_simulator(
-    pan_folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], number: int
-) -> None:
+    pan_folder, tmp_path, capsys, number
+):
     assert main(words(pan_folder, number, tmp_path / "a.png")) == 0
     printed, scene = capsys.readouterr().out, open_scene(str(pan_folder))
     size, since_us = scene.video.size, scene.whole.start_us
@@ -57,9 +55,7 @@ def test_a_figure_shows_the_frame_the_recording_and_each_simulator(
 
 @pytest.mark.torch
 @pytest.mark.parametrize("number", figures.NETWORKS)
-def test_a_networks_pictures_are_the_last_row(
-    pan_folder: Path, tmp_path: Path, number: int
-) -> None:
+def test_a_networks_pictures_are_the_last_row(pan_folder, tmp_path, number):
     torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
     weights = save_published(torch, figures.NETWORKS[number], tmp_path / "weights.pt")
     given = words(pan_folder, number, tmp_path / "a.png")
@@ -72,9 +68,7 @@ def test_a_networks_pictures_are_the_last_row(
     assert (last == last[..., :1]).all() == (number == 5)  # brightness, or depth in colours
 
 
-def test_the_ablations_are_columns_by_their_names(
-    pan_folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_ablations_are_columns_by_their_names(pan_folder, tmp_path, capsys):
     configs = tmp_path / "configs"
     configs.mkdir()
     for name in ("Texvent", "E4", "E9"):
@@ -95,8 +89,6 @@ def test_the_ablations_are_columns_by_their_names(
         (["--figure", "5", "-o", "a.json"], "a figure needs -o FILE.png"),
     ],
 )
-def test_figures_that_cannot_be_drawn_are_refused(
-    capsys: pytest.CaptureFixture[str], given: list[str], message: str
-) -> None:
+def test_figures_that_cannot_be_drawn_are_refused(capsys, given, message):
     assert main(["bench", "paper", *given]) == 2
     assert message in capsys.readouterr().err

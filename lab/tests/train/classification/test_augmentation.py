@@ -1,7 +1,5 @@
 """Changed copies of recordings, by hand and by properties."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from tests.represent.definitions import rows

@@ -1,9 +1,6 @@
 """Networks: against torch's own layers, in training and after it; initial weights; read back."""
 
-from __future__ import annotations
-
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -31,7 +28,7 @@ def images(count: int = 4, side: int = 70) -> torch.Tensor:
 
 
 @pytest.mark.parametrize("is_training", [True, False])
-def test_resnet34_computes_what_torchs_layers_do(is_training: bool) -> None:
+def test_resnet34_computes_what_torchs_layers_do(is_training):
     network = resnet34(2, 3, seed=1, width=4).train(is_training)
     layers = torch_resnet(network.tensors, BLOCKS).train(is_training)
     for _ in range(2):  # the second time with the statistics that the first has noted
@@ -44,7 +41,7 @@ def test_resnet34_computes_what_torchs_layers_do(is_training: bool) -> None:
             torch.testing.assert_close(tensor, noted[name], rtol=1e-4, atol=1e-6)
 
 
-def test_kernels_begin_as_torchvisions_and_the_replaced_layers_as_torchs() -> None:
+def test_kernels_begin_as_torchvisions_and_the_replaced_layers_as_torchs():
     found = resnet34(2, 10, seed=5).tensors
     tensors = {name: one.detach() for name, one in found.items()}
     for name in ("layer1.0.conv1.weight", "layer3.0.downsample.0.weight", "layer4.2.conv2.weight"):
@@ -60,15 +57,13 @@ def test_kernels_begin_as_torchvisions_and_the_replaced_layers_as_torchs() -> No
     assert set(tensors["layer2.1.bn1.running_mean"].tolist()) == {0.0}
 
 
-def test_resnet34_has_the_published_number_of_parameters() -> None:
+def test_resnet34_has_the_published_number_of_parameters():
     trained = sum(one.numel() for one in ResNet(2, 1000).parameters())
     # torchvision's 21,797,672 with a first kernel of 14 on two channels instead of 7 on three.
     assert trained == 21_797_672 - 64 * 3 * 7 * 7 + 64 * 2 * 14 * 14
 
 
-def test_weights_of_another_representation_are_refused(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_weights_of_another_representation_are_refused(tmp_path, capsys):
     write_recordings(tmp_path / "recorded")
     text = (
         'data = {recordings = "recorded", validation_split = "val", image_size = "64x48"}\n'
@@ -84,7 +79,7 @@ def test_weights_of_another_representation_are_refused(
     assert "with representation 'binary-event-image', and [net" in capsys.readouterr().err
 
 
-def test_a_checkpoint_of_n_imagenets_program_is_evaluated(tmp_path: Path) -> None:
+def test_a_checkpoint_of_n_imagenets_program_is_evaluated(tmp_path):
     write_recordings(tmp_path / "recorded")
     (tmp_path / "spec.toml").write_text(
         'data = {recordings = "recorded", validation_split = "val", image_size = "64x48"}\n'

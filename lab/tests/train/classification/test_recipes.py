@@ -1,7 +1,5 @@
 """The training files of the repository: read as they are, and run on tiny data."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 
@@ -23,7 +21,7 @@ ROOT = Path(__file__).parents[4]
 FILES = ROOT / "configs" / "training"
 
 
-def test_n_imagenets_recipe_is_the_published_one() -> None:
+def test_n_imagenets_recipe_is_the_published_one():
     found = read_training(FILES / "n-imagenet-resnet34.toml", ClassificationConfig())
     assert (found.seed, found.data.slice_events, found.data.image_size) == (1, 30_000, "224x224")
     assert found.data.recordings == FILES / "N_Imagenet"
@@ -35,9 +33,7 @@ def test_n_imagenets_recipe_is_the_published_one() -> None:
     assert (augmentation.shift, augmentation.flip_x, augmentation.flip_time) == (20, True, True)
 
 
-def test_n_imagenets_recipe_learns_files_of_its_layout(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_n_imagenets_recipe_learns_files_of_its_layout(tmp_path, capsys):
     for split in ("train", "val"):
         for number, wnid in enumerate(WNIDS * 4):
             place = tmp_path / "N_Imagenet" / f"extracted_{split}" / wnid / f"{number}.npz"
@@ -51,14 +47,14 @@ def test_n_imagenets_recipe_learns_files_of_its_layout(
     assert re.search(r"best epoch 1 of 1: .*accuracy 0\.\d", capsys.readouterr().out)
 
 
-def test_the_first_example_is_a_specification_and_a_training_of_it() -> None:
+def test_the_first_example_is_a_specification_and_a_training_of_it():
     specification = read_specification(FILES / "shapes.toml")
     training = read_training(FILES / "shapes-classifier.toml", ClassificationConfig())
     assert training.data.folder == FILES / specification.name
     assert {training.data.split, training.data.validation_split} <= {*specification.splits}
 
 
-def test_the_training_files_of_the_page_are_read(tmp_path: Path) -> None:
+def test_the_training_files_of_the_page_are_read(tmp_path):
     page = (ROOT / "docs" / "training.md").read_text(encoding="utf-8")
     blocks = re.findall(r"```toml\n# ([\w-]+\.toml).*?\n(.*?)```", page, re.DOTALL)
     assert [name for name, _ in blocks] == ["cars.toml", "digits.toml", "film.toml"]

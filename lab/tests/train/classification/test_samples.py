@@ -1,7 +1,5 @@
 """Samples of every kind, put together, and refused before any work where they do not fit."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 
@@ -57,7 +55,7 @@ RECORDED = 'recordings = "rec", validation_split = "val"'
 
 
 @pytest.mark.parametrize(("format", "sensor"), [("npz", ""), ("bin", ', sensor = "16x12"')])
-def test_recordings_of_any_format_are_read(tmp_path: Path, format: str, sensor: str) -> None:
+def test_recordings_of_any_format_are_read(tmp_path, format, sensor):
     write_recordings(tmp_path / "rec", format=format)
     samples = open_validation(config(write(tmp_path / "spec.toml", RECORDED + sensor)))
     assert samples.class_number.tolist() == [0, 0, 0, 0, 1, 1, 1, 1]
@@ -65,7 +63,7 @@ def test_recordings_of_any_format_are_read(tmp_path: Path, format: str, sensor: 
         assert samples.events(place).equals(bar(place // 4, 100 + place % 4))
 
 
-def test_recorded_and_simulated_samples_are_mixed(tmp_path: Path) -> None:
+def test_recorded_and_simulated_samples_are_mixed(tmp_path):
     write_recordings(tmp_path / "rec")
     write_bars(tmp_path / "made")
     path = write(
@@ -86,7 +84,7 @@ def test_recorded_and_simulated_samples_are_mixed(tmp_path: Path) -> None:
     assert json.loads((tmp_path / "mixed" / "history.json").read_text())["epochs"]
 
 
-def test_few_of_each_class_are_drawn_by_the_seed(tmp_path: Path) -> None:
+def test_few_of_each_class_are_drawn_by_the_seed(tmp_path):
     write_recordings(tmp_path / "rec", per_class=9)
     paths = [
         write(tmp_path / f"{seed}.toml", f"{RECORDED}, per_class = 3", f"seed = {seed}")
@@ -99,7 +97,7 @@ def test_few_of_each_class_are_drawn_by_the_seed(tmp_path: Path) -> None:
     assert numbers[0] == numbers[1] != numbers[2]
 
 
-def test_only_the_first_classes_are_told_apart(tmp_path: Path) -> None:
+def test_only_the_first_classes_are_told_apart(tmp_path):
     write_recordings(tmp_path / "rec")
     for split in ("train", "val"):
         (tmp_path / "rec" / split / "ape").mkdir()
@@ -111,7 +109,7 @@ def test_only_the_first_classes_are_told_apart(tmp_path: Path) -> None:
     assert len(validation) == 5
 
 
-def test_polarity_is_exchanged_where_it_is_asked_for(tmp_path: Path) -> None:
+def test_polarity_is_exchanged_where_it_is_asked_for(tmp_path):
     write_recordings(tmp_path / "rec")
     plain, flipped = (
         open_validation(ClassificationConfig(data=ClassData(
@@ -124,7 +122,7 @@ def test_polarity_is_exchanged_where_it_is_asked_for(tmp_path: Path) -> None:
         np.testing.assert_array_equal(one.x, two.x)
 
 
-def test_images_have_the_size_that_is_asked_for_whatever_the_sensor(tmp_path: Path) -> None:
+def test_images_have_the_size_that_is_asked_for_whatever_the_sensor(tmp_path):
     write_recordings(tmp_path / "rec")
     events = bar(0, 1)
     large = EventStream.from_columns(
@@ -139,7 +137,7 @@ def test_images_have_the_size_that_is_asked_for_whatever_the_sensor(tmp_path: Pa
     assert train(path) == 0
 
 
-def test_a_sample_without_events_is_an_image_of_zeros(tmp_path: Path) -> None:
+def test_a_sample_without_events_is_an_image_of_zeros(tmp_path):
     write_recordings(tmp_path / "rec")
     for split in ("train", "val"):
         EventStream.empty(SIZE).save(tmp_path / "rec" / split / "car" / "empty.npz")
@@ -151,7 +149,7 @@ def test_a_sample_without_events_is_an_image_of_zeros(tmp_path: Path) -> None:
     assert train(path) == 0
 
 
-def test_sizes_within_a_data_set_are_all_checked(tmp_path, capsys) -> None:
+def test_sizes_within_a_data_set_are_all_checked(tmp_path, capsys):
     write_bars(tmp_path / "made")
     odd = {"odd0": bar(0, 1), "odd1": EventStream([1], [1], [1], [1], SensorSize(8, 6))}
     record = write_shard(tmp_path / "made", "paper", "train", 1, odd, labels=("bus", "car"))
@@ -162,7 +160,7 @@ def test_sizes_within_a_data_set_are_all_checked(tmp_path, capsys) -> None:
     assert "odd1 has 8x6, others 16x12" in error_of(path, capsys)
 
 
-def test_a_damaged_file_is_named_in_one_line(tmp_path, capsys) -> None:
+def test_a_damaged_file_is_named_in_one_line(tmp_path, capsys):
     write_recordings(tmp_path / "rec")
     path = write(tmp_path / "spec.toml", RECORDED)
     (tmp_path / "rec" / "train" / "car" / "2.npz").write_bytes(b"PK\x03\x04damaged")
@@ -187,9 +185,7 @@ def test_a_damaged_file_is_named_in_one_line(tmp_path, capsys) -> None:
         (f'{RECORDED}, image_size = "0x4"', "0x4"),
     ],
 )
-def test_samples_that_do_not_fit_are_refused_in_one_line(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], data: str, message: str
-) -> None:
+def test_samples_that_do_not_fit_are_refused_in_one_line(tmp_path, capsys, data, message):
     write_recordings(tmp_path / "rec")
     (tmp_path / "rec" / "none").mkdir()
     (tmp_path / "rec" / "one" / "bus").mkdir(parents=True)
@@ -202,9 +198,7 @@ def test_samples_that_do_not_fit_are_refused_in_one_line(
     assert not (tmp_path / "spec").exists()
 
 
-def test_training_begins_with_given_weights_and_a_new_last_layer_for_other_classes(
-    tmp_path: Path,
-) -> None:
+def test_training_begins_with_given_weights_and_a_new_last_layer_for_other_classes(tmp_path):
     write_recordings(tmp_path / "rec")
     first = write(tmp_path / "first.toml", RECORDED)
     assert train(first) == 0

@@ -1,7 +1,5 @@
 """Scores of validation, against their definitions."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 
@@ -37,7 +35,7 @@ def scores_of(table: np.ndarray):
     return lambda images: torch.stack([next(rows) for _ in images])
 
 
-def test_accuracy_and_its_standard_error(tmp_path: Path) -> None:
+def test_accuracy_and_its_standard_error(tmp_path):
     # Classes 0, 0, 0, 1, 1: three are right.
     table = np.array([[2, 1], [0, 1], [3, 0], [5, 0], [0, 1]])
     found, _ = task(tmp_path, (3, 2)).validate(scores_of(table), torch.device("cpu"), workers=0)
@@ -51,9 +49,7 @@ def test_accuracy_and_its_standard_error(tmp_path: Path) -> None:
     assert found["validation loss"] == pytest.approx(np.log1p(np.exp(-margins)).mean(), rel=1e-6)
 
 
-def test_with_more_than_five_classes_the_right_one_may_be_among_the_five_likeliest(
-    tmp_path: Path,
-) -> None:
+def test_with_more_than_five_classes_the_right_one_may_be_among_the_five_likeliest(tmp_path):
     counts = (1,) * 7
     order = np.array([[0, 1, 2, 3, 4, 5, 6]] * 7)  # class 0 is the likeliest, 6 the least
     table = -order.astype(float)
@@ -63,9 +59,7 @@ def test_with_more_than_five_classes_the_right_one_may_be_among_the_five_likelie
     assert found["top-5 accuracy standard error"] == pytest.approx(math.sqrt(10 / 49 / 7))
 
 
-def test_of_equal_scores_the_first_class_is_predicted_and_no_number_recognises_nothing(
-    tmp_path: Path,
-) -> None:
+def test_of_equal_scores_the_first_class_is_predicted_and_no_number_recognises_nothing(tmp_path):
     table = np.array([[2, 2], [np.nan, np.nan], [3, 0], [2, 2], [0, 1]])
     _, predictions = task(tmp_path, (3, 2)).validate(
         scores_of(table), torch.device("cpu"), workers=0

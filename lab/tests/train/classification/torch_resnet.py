@@ -1,7 +1,5 @@
 """N-ImageNet's ResNet as layers of torch, which name their tensors as torchvision's does."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Recordings as clips: windows from frame to frame, alone or beside simulated ones."""
 
-from __future__ import annotations
-
 import itertools
 from pathlib import Path
 
@@ -29,9 +27,7 @@ def data(recording: Path, tmp_path: Path) -> SequenceData:
     return SequenceData(recordings=(str(recording),), length=LENGTH, cache=tmp_path / "cache")
 
 
-def test_a_window_holds_the_events_between_two_frames_and_the_second_one(
-    data: SequenceData, recording: Path
-) -> None:
+def test_a_window_holds_the_events_between_two_frames_and_the_second_one(data, recording):
     found = RecordedClips.open(data, "train").read(0, 0, 25)
     true = open_recording(recording)
     frames, events = list(true.frames), true.events.collect()
@@ -41,7 +37,7 @@ def test_a_window_holds_the_events_between_two_frames_and_the_second_one(
         np.testing.assert_array_equal(found.targets["frame"][number], frames[number + 1].luma)
 
 
-def test_four_fifths_are_runs_to_train_on_and_the_rest_is_scored(data: SequenceData) -> None:
+def test_four_fifths_are_runs_to_train_on_and_the_rest_is_scored(data):
     trained = RecordedClips.open(data, "train")
     scored = RecordedClips.open(data, "validation")
     edges = [trained.read(number, 0, LENGTH).edges_us for number in range(len(trained))]
@@ -53,9 +49,7 @@ def test_four_fifths_are_runs_to_train_on_and_the_rest_is_scored(data: SequenceD
     assert trained.draw(1, np.random.default_rng(0)).edges_us.tolist() == edges[1].tolist()
 
 
-def test_a_recording_is_copied_once_and_again_when_it_changes(
-    data: SequenceData, recording: Path
-) -> None:
+def test_a_recording_is_copied_once_and_again_when_it_changes(data, recording):
     first = RecordedClips.open(data, "train")
     (path,) = first.files
     before = path.stat().st_mtime_ns
@@ -66,7 +60,7 @@ def test_a_recording_is_copied_once_and_again_when_it_changes(
     (recording / "more.txt").unlink()
 
 
-def test_simulated_clips_follow_the_recorded_ones(data: SequenceData, tmp_path: Path) -> None:
+def test_simulated_clips_follow_the_recorded_ones(data, tmp_path):
     clips = RecordedClips.open(data, "train")
     more = WindowedClips.open(write_sequence_data(tmp_path, LENGTH), "train", ["frame"])
     both = ExtendedClips(clips, more, 2)
@@ -78,9 +72,7 @@ def test_simulated_clips_follow_the_recorded_ones(data: SequenceData, tmp_path: 
         assert all(a.equals(b) for a, b in zip(found.events, true.events, strict=True))
 
 
-def test_recordings_that_are_too_short_or_small_are_refused(
-    data: SequenceData, recording: Path, tmp_path: Path
-) -> None:
+def test_recordings_that_are_too_short_or_small_are_refused(data, recording, tmp_path):
     given = {"recordings": (str(recording),), "cache": tmp_path}
     with pytest.raises(InputError, match="no run of 40 frames to train on; make length smaller"):
         RecordedClips.open(SequenceData(length=40, **given), "train")

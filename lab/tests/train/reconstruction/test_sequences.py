@@ -1,7 +1,5 @@
 """Windows of simulated clips: equal to what the simulation gives, stored once, read in parts."""
 
-from __future__ import annotations
-
 import os
 from dataclasses import replace
 from pathlib import Path

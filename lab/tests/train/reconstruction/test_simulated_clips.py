@@ -1,7 +1,5 @@
 """Samples simulated on demand are those that a data set stores."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

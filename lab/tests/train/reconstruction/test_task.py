@@ -1,7 +1,5 @@
 """Training of reconstruction networks: examples, learning, published files."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -84,7 +82,7 @@ def weights(folder: Path) -> dict[str, torch.Tensor]:
     return torch.load(folder / "weights.pt", weights_only=True)["state_dict"]
 
 
-def test_unchanged_examples_are_the_windows_themselves(folder: Path) -> None:
+def test_unchanged_examples_are_the_windows_themselves(folder):
     config = config_of(folder, augmentation=UNCHANGED)
     config = replace(config, data=replace(config.data, crop=None))
     make = ReconstructionTask(config).batches(workers=0).make
@@ -104,7 +102,7 @@ def skip_drawn(count: int, seed: int) -> np.random.Generator:
     return chance
 
 
-def test_in_a_pause_nothing_happens_and_nothing_is_lost(folder: Path) -> None:
+def test_in_a_pause_nothing_happens_and_nothing_is_lost(folder):
     always = replace(UNCHANGED, pause_begin=1.0, pause_stay=0.0)
     make = ReconstructionTask(config_of(folder, augmentation=always)).batches(workers=0).make
     example = make(0, np.random.default_rng(0))
@@ -117,7 +115,7 @@ def test_in_a_pause_nothing_happens_and_nothing_is_lost(folder: Path) -> None:
     assert not np.array_equal(example["images"][0], example["images"][2])
 
 
-def test_mixed_precision_trains_weights_of_full_precision(folder: Path, tmp_path: Path) -> None:
+def test_mixed_precision_trains_weights_of_full_precision(folder, tmp_path):
     mixed = replace(CPU, precision="bfloat16")
     state = train_from_file(ReconstructionConfig, folder / "training.toml", tmp_path / "run", mixed)
     assert np.isfinite(state.rows[-1]["training loss"])
@@ -125,9 +123,7 @@ def test_mixed_precision_trains_weights_of_full_precision(folder: Path, tmp_path
 
 
 @pytest.mark.parametrize("name", ["firenet", "firenet+", "e2vid", "e2vid+", "hypere2vid", "et-net"])
-def test_a_published_file_is_read_as_that_network_and_gives_its_images(
-    folder: Path, tmp_path: Path, name: str
-) -> None:
+def test_a_published_file_is_read_as_that_network_and_gives_its_images(folder, tmp_path, name):
     config = config_of(folder)
     task = ReconstructionTask(replace(config, network=replace(config.network, name=name)))
     network = task.make_network().eval()
@@ -150,7 +146,7 @@ def test_a_published_file_is_read_as_that_network_and_gives_its_images(
     assert all(torch.equal(one, again.tensors[key]) for key, one in network.tensors.items())
 
 
-def test_some_windows_are_scored_and_all_are_seen(folder: Path) -> None:
+def test_some_windows_are_scored_and_all_are_seen(folder):
     every, third = (ReconstructionTask(config_of(folder, score_every=number)) for number in (1, 3))
     clips, network = every._validation, every.make_network()
     reconstructor = Reconstructor(FIRENET, network)
@@ -169,9 +165,7 @@ def test_some_windows_are_scored_and_all_are_seen(folder: Path) -> None:
         assert every.validate(network, DEVICE, workers=0)[0]["mse"] != np.mean(values)
 
 
-def test_lpips_is_trained_with_where_its_weights_are(
-    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_lpips_is_trained_with_where_its_weights_are(folder, tmp_path, capsys):
     pulled = tmp_path / "texvent-cache" / "weights"
     pulled.mkdir(parents=True)
     write_specification(folder, TEXT.replace("32x24", "40x32"))
@@ -189,7 +183,7 @@ def test_lpips_is_trained_with_where_its_weights_are(
     assert {"ssim", "mse", "lpips"} <= state.rows[0].keys()
 
 
-def test_videos_train_without_flow(tmp_path: Path) -> None:
+def test_videos_train_without_flow(tmp_path):
     frames = np.full((12, 20, 20), 200, np.uint8)
     for number in range(12):
         frames[number, 4:14, number : number + 6] = 20
@@ -212,7 +206,7 @@ def voxels(count: int = 2) -> torch.Tensor:
 
 
 @pytest.mark.parametrize("name", ["firenet", "e2vid+", "hypere2vid"])
-def test_the_state_is_carried_from_window_to_window(name: str) -> None:
+def test_the_state_is_carried_from_window_to_window(name):
     published = RECONSTRUCTORS.load(name)
     network, grids = new_network(published, 0).eval(), voxels(3)
     with torch.no_grad():
@@ -223,7 +217,7 @@ def test_the_state_is_carried_from_window_to_window(name: str) -> None:
         assert not torch.equal(network(grids[:, 1:])[:, 0], images[:, 1])
 
 
-def test_gradients_reach_all_parameters_through_time() -> None:
+def test_gradients_reach_all_parameters_through_time():
     network, grids = new_network(RECONSTRUCTORS.load("e2vid+"), 0), voxels(3).requires_grad_()
     network(grids)[:, -1].sum().backward()
     assert grids.grad[:, 0].any()
@@ -231,7 +225,7 @@ def test_gradients_reach_all_parameters_through_time() -> None:
 
 
 @pytest.mark.parametrize("given", ['"bar"', '["bar", "slider_depth"]'])
-def test_recordings_count_from_the_training_file(tmp_path: Path, given: str) -> None:
+def test_recordings_count_from_the_training_file(tmp_path, given):
     (tmp_path / "bar").mkdir()
     file = tmp_path / "training.toml"
     file.write_text(f"data = {{recordings = {given}, length = 6}}\n")

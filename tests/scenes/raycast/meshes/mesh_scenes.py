@@ -1,7 +1,5 @@
 """Meshes and scenes with one mesh, made by hand."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 

@@ -95,14 +95,6 @@ def test_no_person_is_added_where_something_else_may_do_it(text):
     assert not nouns & PERSON_NOUNS
 
 
-@pytest.mark.parametrize("text", [
-    "a man chops wood with an axe", "a girl brushes hair with a hairbrush",
-    "a worker rakes leaves with a rake",
-])  # fmt: skip
-def test_the_tool_that_comes_with_an_act_may_be_said(text):
-    assert is_right(text)
-
-
 @pytest.mark.parametrize(
     "text", ["a woman kicks a penalty", "a boy shoots hoops", "a man takes a free kick"]
 )
