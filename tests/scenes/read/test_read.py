@@ -115,7 +115,7 @@ def test_parts_that_move_are_claimed_of_their_owner(text, part):
     [
         ("a dog jumps onto a sofa and lies down", "lies down", True),
         ("a bus drives and stops", "stops", True),
-        ("a cat sleeps", "sleeps", False),
+        ("a fish sleeps", "sleeps", False),
     ],
 )
 def test_a_change_is_shown_where_something_is_before_it(text, word, is_so):
