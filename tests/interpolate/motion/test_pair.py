@@ -58,7 +58,9 @@ def test_a_bar_before_a_background_is_drawn_as_defined(place):
     np.testing.assert_allclose(image, expected, rtol=0, atol=0.02)
 
 
-def test_random_surfaces_are_drawn_as_defined():
+@pytest.mark.parametrize("shares", [(0.6, 0.8), (0.6, 1.4), (1.7, 0.5), (1.3, 1.6)])
+def test_random_surfaces_are_drawn_as_defined(shares):
+    """The two frames bend a path to the same side or to others, one more than twice the other."""
     random = np.random.default_rng(5)
     for _ in range(2):
         depth = np.where(random.random((HEIGHT, WIDTH)) < 0.2, OBJECT_M, BACKGROUND_M)
@@ -75,7 +77,7 @@ def test_random_surfaces_are_drawn_as_defined():
                     forward=vectors, backward=-share * vectors, depth=depth.astype(np.float32)
                 ),
             )
-            for index, share in enumerate((0.6, 0.8))  # the two frames bend a path differently
+            for index, share in enumerate(shares)
         ]
         image, expected = both_at(*frames, 0.4, random.permutation(PIXELS)[:30])
         # A place exactly on a limit may fall to either side in float32.
