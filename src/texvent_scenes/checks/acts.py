@@ -206,7 +206,7 @@ def keeps_to_ground(staged: StagedClip, claim: Claim) -> bool:
         places = np.array([one.middle(time_s)[:2] for time_s in staged.times])
         for box in (each.corners(0.0) for each in others if each not in own):
             room = 0.5 * one.size_m
-            is_by = ((places > box.min(axis=0)[:2] - room) & (places < box.max(axis=0)[:2] + room))
+            is_by = (places > box.min(axis=0)[:2] - room) & (places < box.max(axis=0)[:2] + room)
             over = np.where(is_by.all(axis=1), np.abs(low - float(box[:, 2].max())), np.inf)
             gaps = np.minimum(gaps, over)
         is_near = gaps <= _GROUNDED * one.size_m

@@ -15,7 +15,6 @@ from texvent_scenes.read.lexicon import Sense, lexicon_of, word_set
 from texvent_scenes.read.parts import list_words
 from texvent_scenes.read.tokens import NO_TOKEN, Token
 
-
 _FIRST_PERSON = ("camera", "view", "first person")
 _STAYING = frozenset({"handheld", "roll", "truck"})
 """Moves of a camera over what it looks at."""

@@ -102,8 +102,8 @@ class _SentenceReader(ThingReader):
         heads = [one.head for one in clause.subjects if one.head is not None]
         is_aboard = any(self._draft.fates.get(one.at) == "camera" for one in heads)
         is_named = goes_on or is_aboard or clause.about == "camera"
-        seated = None if is_named else (
-            sit_in(self._draft, clause) or look_out(self._draft, clause)
+        seated = (
+            None if is_named else (sit_in(self._draft, clause) or look_out(self._draft, clause))
         )
         clause = seated or clause
         if seated is not None and not self._draft.things:
