@@ -526,7 +526,9 @@ class _SentenceReader(ThingReader):
                 is_side &= not is_over
                 is_place = any(each.has("place") for each in heads)
                 is_side |= is_place and not found and kind in ("out of", "into")  # it stays there
-                goes = any(each["kind"] == "travel" for each in (*draft.moves, move or {"kind": ""}))
+                goes = any(
+                    each["kind"] == "travel" for each in (*draft.moves, move or {"kind": ""})
+                )
                 is_side |= goes and bool(found) and kind in ("up", "down")  # it keeps its height
                 draft.mark(one.preposition, "lost" if is_side else "shown")  # nothing is put there
         if move is not None:

@@ -90,6 +90,8 @@ def test_words_of_set_ups_are_shown(text, word):
         ("a hand tilts a checkerboard", "tilts"),
         ("a hand turns a steering wheel", "turns"),
         ("a plane landing on a runway, nose camera", "nose camera"),
+        ("a spinning fan occluded by a book", "occluded"),
+        ("hand-held camera walking down a staircase", "down"),
     ],
 )
 def test_what_nothing_shows_is_told(text, word):
@@ -108,3 +110,14 @@ def test_a_first_person_view_goes_with_the_camera(text, means):
     said = report(text)
     assert any(f'means = "{means}"' in one for one in said.scene)
     assert "objects" not in " ".join(said.scene)
+
+
+@pytest.mark.parametrize("place", ["a field", "a beach", "a street"])
+def test_lamps_of_ceilings_hang_from_nothing_in_the_open(place):
+    assert "hanging from nothing" in " ".join(
+        report(f"flickering ceiling lamps in {place}").not_shown
+    )
+
+
+def test_who_passes_before_a_large_thing_covers_it():
+    assert "occludes" in report("a person occludes a car").shown
