@@ -86,6 +86,8 @@ def find_misplaced(
             lost.append(Violation("zone", "", "on land"))
         if not (lost or is_free) and bodies.needs_support(number):
             lost += _list_strays(one, place, line, half_m, times) if bodies.is_alone(number) else []
+        if one.noun.name in nouns_with("hangs from a ceiling") and not place.is_room:
+            lost.append(Violation("support", "", "hanging from nothing"))
         for kind, value, text in lost:
             yield Violation(kind, value, f"the {one.noun.name} {text}")
         for relation in description.relations if lost else ():

@@ -42,6 +42,7 @@ from texvent_scenes.checks.acts import (
     tips,
     turns,
 )
+from texvent_scenes.checks.body_boxes import BodyBoxes
 from texvent_scenes.checks.camera_ways import is_camera_so, is_macro, is_overtaken
 from texvent_scenes.checks.grips import handles_by_hand
 from texvent_scenes.checks.looks import has_look
@@ -80,6 +81,8 @@ _DONE = (
 """Length of a clip in which motions get so far that they are judged, s; claims of read motions."""
 _OF_CAMERA = (SEEN, "circle", "camera", "macro")
 """Claims that may be made of the camera."""
+_COVERED = 0.6
+"""Most distance in the image of what is covered, in half extents of both."""
 _LIT_SHARE = 0.5
 """Share of the period of a lamp that blinks for which it is lit."""
 _MOSTLY = 0.75
@@ -236,6 +239,24 @@ def _shines(staged: StagedClip, claim: Claim) -> bool:
     return all(one.instance in lit for one in staged.own(claim))
 
 
+def _covers(staged: StagedClip, claim: Claim) -> bool:
+    """Whether each body is before another one in the image at some time, and over much of it."""
+    others = [one for n in claim.targets for one in staged.boxes[n]]
+    return bool(others) and all(
+        any(is_covered(one, other) for other in others) for one in staged.own_boxes(claim)
+    )
+
+
+def is_covered(one: BodyBoxes, other: BodyBoxes) -> bool:
+    """Whether a body is before another one, and their middles are near in the image."""
+    off, half = np.abs(one.seen - other.seen)[:, :2], np.zeros((len(one.seen), 2))
+    for body in (one, other):
+        extents = np.column_stack([body.size[:, :2].max(axis=1), body.size[:, 2]])
+        half += 0.5 * extents / np.maximum(body.seen[:, 2:], 1e-3)
+    is_before = one.seen[:, 2] < other.seen[:, 2]
+    return bool((is_before & (off <= _COVERED * half).all(axis=1)).any())
+
+
 def _sits_at(staged: StagedClip, claim: Claim) -> bool:
     """Whether each is on a seat, turned to the thing and within reach of it."""
     goals = [(n, one) for n in claim.targets for one in staged.boxes[n]]
@@ -265,6 +286,6 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "land": lands, "aside": goes_aside, "goes": goes, "along": goes_along,
     "grip": handles_by_hand, "camera": is_camera_so, "stop": stops, "move": moves, "tip": tips,
     "turn": turns, "pace": changes_pace,
-    "sit at": _sits_at, "macro": is_macro, "overtaken": is_overtaken,
+    "sit at": _sits_at, "macro": is_macro, "overtaken": is_overtaken, "cover": _covers,
 }  # fmt: skip
 """Kind of claim → its check."""

@@ -187,17 +187,12 @@ class Abilities:
                 return self._acts_on(verb, names, objects)
             case "animal":
                 return all(verb.kind in self.nouns[one].acts for one in names)
-            case "walker" | "machine":
-                walk, work = map(self.walks, subjects), (self.nouns[n].is_working for n in names)
-                return not has_object and all(walk if verb.who == "walker" else work)
+            case "walker" | "machine" | "bearer" | "belt":
+                is_load = verb.who in ("bearer", "belt")
+                is_said = has_object and bool(objects) if is_load else not has_object
+                return is_said and self._suits(verb.who, names)
             case "body" if any(self.nouns[one].motion not in ("roll", "drive") for one in names):
                 return False  # no dart, which would go along the ground
-            case "bearer" | "belt":
-                belts = names <= trait_values("belt speed").keys()
-                goes = names.isdisjoint(trait_values("gripper")) and all(
-                    self.nouns[one].motion in ("roll", "drive") for one in names
-                )
-                return has_object and bool(objects) and (belts if verb.who == "belt" else goes)
             case "source" | "lamp":
                 if verb.who == "lamp" and not self._can_shine(verb.kind, names):
                     return False
@@ -211,6 +206,16 @@ class Abilities:
         is_unfit &= is_ground or is_way or verb.kind == "break" or bool(names & PERSON_NOUNS)
         is_unfit |= walks and verb.kind in word_set("things", "not_of_walkers")
         return False if is_unfit else None
+
+    def _suits(self, who: str, names: set[str]) -> bool:
+        """Whether nouns are on feet, machines, belts, or wheels without hands, as a verb asks."""
+        if who == "belt":
+            return names <= trait_values("belt speed").keys()
+        kinds = [self.nouns[one] for one in names]
+        if who == "bearer":
+            goes = all(one.motion in ("roll", "drive") for one in kinds)
+            return goes and names.isdisjoint(trait_values("gripper"))
+        return all(one.motion == "walk" if who == "walker" else one.is_working for one in kinds)
 
     def _can_shine(self, kind: str, names: set[str]) -> bool:
         """Whether nouns have lamps that can be switched, or are patterns that can blink."""

@@ -79,7 +79,8 @@ class VerbSense:
 
     who: str = "plain"
     """Subject that it needs: "person", "hand", "animal", "camera", "lamp", "source" (of an effect),
-    "walker" (on feet), "machine", "body" (what rolls or drives), "bearer" (of a load), "belt", a noun, or "plain" (anything)."""
+    "walker" (on feet), "machine", "body" (what rolls or drives), "bearer" (of a load),
+    "belt", a noun, or "plain" (anything)."""
     kind: str = ""
     """Motion, activity, camera move or effect."""
     pace: float = 1.0

@@ -18,18 +18,18 @@ _ROAD_M_S = 9.0
 """Speed from which on what overtakes a camera needs none that is slower than usual, m/s."""
 
 
-def overtake_ego(draft: SceneDraft, verb: Token, subjects: Sequence[int]) -> None:
-    """Let a camera go along, so much slower than those who come past it: "a truck overtakes us"."""
-    own = min(draft.nouns[draft.things[one]["noun"]].speed_m_s or _ROAD_M_S for one in subjects)
+def _overtake_ego(draft: SceneDraft, verb: Token, index: int) -> None:
+    """Let a camera go along, so much slower than who comes past it: "a truck overtakes us"."""
+    thing = draft.things[index]
+    own = draft.nouns[thing["noun"]].speed_m_s or _ROAD_M_S
     if not any(one["kind"] == "travel" for one in draft.moves):
         draft.add_move({"kind": "travel", "direction": "forward", "means": "drive"})
-    for move in draft.moves if own < _ROAD_M_S else ():
-        move.setdefault("speed_m_s", round(_SLOWER * own, 2))
-    for index in subjects:
-        if own < _ROAD_M_S:
-            draft.things[index]["motions"][-1].pop("pace", None)
-        draft.things[index].setdefault("placement", "left")
-        draft.claim(verb, "overtaken", "", [index])
+    if own < _ROAD_M_S:
+        thing["motions"][-1].pop("pace", None)
+        for move in draft.moves:
+            move.setdefault("speed_m_s", round(_SLOWER * own, 2))
+    thing.setdefault("placement", "left")
+    draft.claim(verb, "overtaken", "", [index])
 
 
 def meet(draft: SceneDraft, act: VerbSense, verb: Token, subjects: Sequence[int]) -> None:
@@ -61,6 +61,8 @@ def claim_act(
 ) -> None:
     """Leave it to the staged scene whether an object does it."""
     _claim_outcome(draft, act, verb, index, objects)
+    if act.brings == EGO:
+        _overtake_ego(draft, verb, index)
     if act.kind == "swim":
         draft.claim(verb, "descend", "", [index] if act.direction == "down" else [])
     elif verb.text in word_set("things", "landing"):

@@ -306,7 +306,7 @@ def set_before(draft: SceneDraft, token: Token, noun: str, subjects: Sequence[in
     known = [n for n, one in enumerate(draft.things) if one["noun"] == noun]
     if not known:
         draft.things.append({"noun": noun, "motions": [], "count": 1, "relations": []})
-        if all(map(draft.is_light, subjects)):
+        if all(map(draft.is_light, subjects)) and not any(map(draft.walks, subjects)):
             draft.things[-1]["size"] = _SMALL_SET
     targets = [known[0] if known else len(draft.things) - 1]
     placed = [relate_one(draft, "front", one, targets) for one in subjects if one not in targets]

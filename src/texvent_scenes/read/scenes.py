@@ -220,7 +220,8 @@ class _SentenceReader(ThingReader):
         if mutual and kind is not None and found:  # "pass each other"
             claim_mutual(self._draft, [verb, *mutual], kind, subjects)
         kinds = {one.value.kind for one in verb.all("verb")}
-        if not subjects and clause.is_of_effect and kinds & word_set("effects", "motions"):
+        is_own = bool(kinds & word_set("effects", "motions")) or kind == "out of"
+        if not subjects and clause.is_of_effect and is_own:
             self._draft.show(verb)  # "smoke rises from a chimney", as it does by itself
             if kind == "out of" and objects:  # "drops leave a nozzle"
                 self._draft.effects[-1]["source"] = objects[0]
@@ -527,6 +528,10 @@ class _SentenceReader(ThingReader):
                 is_side &= not is_over
                 is_place = any(each.has("place") for each in heads)
                 is_side |= is_place and not found and kind in ("out of", "into")  # it stays there
+                goes = any(
+                    each["kind"] == "travel" for each in (*draft.moves, move or {"kind": ""})
+                )
+                is_side |= goes and bool(found) and kind in ("up", "down")  # it keeps its height
                 draft.mark(one.preposition, "lost" if is_side else "shown")  # nothing is put there
         if move is not None:
             self._draft.add_move(move)

@@ -33,7 +33,7 @@ from texvent_scenes.read.lexicon import (
     states,
     word_set,
 )
-from texvent_scenes.read.outcomes import EGO, can_arrive, claim_act, meet, overtake_ego
+from texvent_scenes.read.outcomes import EGO, can_arrive, claim_act, meet
 from texvent_scenes.read.prepositions import bear_on, lead_on, relate_one, ridden_by, set_before
 from texvent_scenes.read.tokens import NO_TOKEN, Token
 from texvent_scenes.spec.data import SENT, WAYS
@@ -404,8 +404,6 @@ class ThingReader:
             add_motion(draft.things[index], VerbSense(kind=act.object))
             self._switch(act.object, index)
             draft.claim(verb, "activity", act.object, [index] if act.object in TIMED else [])
-        if act.brings == EGO:
-            overtake_ego(draft, verb, subjects)
         if not objects:
             meet(self._draft, act, verb, subjects)
         for index in subjects if act.relation is not None else ():

@@ -221,7 +221,7 @@ def _hide_start(group: ObjectGroup, subject: ObjectGroup, height: float) -> Goal
     if group.noun.habitat == "fixed":  # behind the trunk of a tree
         x = y = group.reach_below(subject.top_m)
     start = -sign * (float(subject.half[0]) - own[0])
-    aside = start - sign * max(float(x - own[0]), 0.0)
+    aside = start - sign * max(float(x - 1.5 * own[0]), 0.0)
     return Goal(_shift(_on_ground(subject, height), aside, -float(y + own[1]) - _CLEAR_M), _FIXED)
 
 
