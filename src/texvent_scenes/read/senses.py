@@ -17,7 +17,6 @@ from texvent_scenes.read.lexicon import NounSense, Sense, word_set
 from texvent_scenes.read.tokens import NO_TOKEN, Token
 from texvent_scenes.words import list_plurals
 
-_YOUNG = ("baby", "newborn", "infant")
 _LIVING = frozenset(
     name
     for table in ("bodies/birds", "bodies/quadrupeds", "bodies/sea_life", "bodies/small_animals")
@@ -67,7 +66,7 @@ def _see_as_young(token: Token, tokens: Sequence[Token]) -> Token:
     after = tokens[token.at + 1] if token.at + 1 < len(tokens) else NO_TOKEN
     animals = {one.value.noun for one in after.all("noun")} - PERSON_NOUNS
     is_animal = any(NOUNS[one].acts or NOUNS[one].speed_m_s > 0.0 for one in animals & _LIVING)
-    is_young = token.text in _YOUNG and is_animal
+    is_young = token.text in word_set("things", "young") and is_animal
     return replace(token, senses=(Sense("field", ("size", 0.5)),)) if is_young else token
 
 

@@ -7,7 +7,7 @@ import pytest
 from tests.scenes.every_row import for_every
 
 from texvent.errors import FileFormatError
-from texvent_scenes.models.activities import ANIMAL_ACTIVITIES, MOUTH_ACTIVITIES
+from texvent_scenes.models.activities import ANIMAL_ACTIVITIES, MOUTH_ACTIVITIES, limbs_of
 from texvent_scenes.models.joints import Instant, read_cycle
 from texvent_scenes.models.materials import BLACK
 from texvent_scenes.models.nouns import FAMILIES, NOUNS
@@ -71,6 +71,8 @@ def parts_at(noun: str, act: str, time_s: float) -> list:
     return list(model.parts(Pose(time_s, 0.0, 0.0, act)))
 
 
+QUIET = ("sleep", "curl up", "watch")
+"""Acts of who only breathes, or turns its head a little."""
 OF_THINGS = ("open", "close", "closed", "show", "turn")
 
 
@@ -94,7 +96,7 @@ def test_an_act_moves_parts_smoothly_and_not_into_the_ground(noun):
             assert bounds(parts_at(noun, act, time_s))[0][2] > ground - 0.4 * size
             first = np.array([part.to_body for part in start])
             moved = max(moved, float(np.abs(now - first).max()))
-        assert moved > 0.02 * size
+        assert moved > (0.0 if act in QUIET else 0.02) * size
 
 
 CROW = """
@@ -159,7 +161,7 @@ def test_a_bad_formula_is_named(formula, message):
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("by down", "by dwon", "no channel 'dwon'; known: ajar, down"),
+        ("by down", "by dwon", "no channel 'dwon'; known: ajar, clapping"),
         ('"crest"', '"crown"', "known: crest, none"),
         ('"head {height/4}', '"haed {height/4}', "must be on one of ground, head"),
     ],
@@ -195,3 +197,28 @@ def test_diagonal_legs_step_together_in_a_trot_alone(noun):
         is_together = np.allclose(left, rear_right) and np.allclose(right, rear_left)
         assert is_together == (activity == "trot")
         assert not np.allclose(left, right)
+
+
+SLEEPERS = sorted(name for name, one in NOUNS.items() if {"sleep", "graze"} <= one.acts)
+
+
+@for_every(SLEEPERS)
+def test_who_sleeps_has_its_head_lower_than_who_stands_or_lies_awake(noun):
+    model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
+    asleep, awake, up = (
+        model.anchor("mouth", Pose(0.0, 0.0, 0.0, act))[2, 3] for act in ("sleep", "lie", "stand")
+    )
+    assert asleep <= awake < up
+    assert asleep >= min(awake, 0.0) - 0.15 * model.height
+
+
+def test_only_flippers_clap_and_only_who_turns_its_head_looks_around():
+    clapping = {name for name, one in NOUNS.items() if "clap" in one.acts}
+    assert clapping == {"seal"}
+    assert "look around" in NOUNS["owl"].acts
+    assert "look around" not in NOUNS["duck"].acts
+
+
+def test_limbs_of_acts_with_keys_are_needed_too():
+    assert {"left_paw_ahead", "right_paw_ahead"} <= limbs_of("stretch")
+    assert "stretch" not in NOUNS["parrot"].acts
