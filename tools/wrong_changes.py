@@ -24,7 +24,10 @@ PACKAGES = {SCENES: (SOURCES.parent, "tests/scenes"), LAB: (Path("lab", "src"), 
 """The packages beside it: the folder that holds each, and its tests."""
 WIDE = {
     "": ("tests/bounds/test_bounds.py", "tests/fuzz/test_fuzz.py"),
-    SCENES: ("tests/scenes/golden/test_golden_scenes.py",),
+    SCENES: tuple(
+        f"tests/scenes/{one}.py"
+        for one in ("golden/test_golden_scenes", "read/test_read", "checks/test_words")
+    ),
     **dict.fromkeys(("cli", "run", "settings"), ("tests/options/test_printed.py",)),
 }
 """Files of tests of all rows of tables: of every file, and of those of a package or a room."""

@@ -11,6 +11,7 @@ from texvent_scenes.description import IndexedRelation, SceneDescription
 from texvent_scenes.spec.scene import Camera, Effect, Light, Motion, Place, SceneObject
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.compose import ComposedScene, compose_scene
+from texvent_scenes.staging.surroundings.environment import RoadLine
 
 SIZE = SensorSize(173, 130)
 DURATION_S = 2.0
@@ -57,3 +58,16 @@ def middle(actor: Actor, time_s: float) -> np.ndarray:
     """The middle of a body, also where its box leans."""
     lift = 0.0 if actor.is_centred else 0.5 * actor.model.height
     return actor.track.at(time_s).to_world() @ np.array([0.0, 0.0, lift, 1.0])
+
+
+def box(actor: Actor, time_s: float) -> tuple[np.ndarray, np.ndarray]:
+    """Least and greatest corner of a body."""
+    corners = actor.corners(float(time_s))
+    return corners.min(axis=0), corners.max(axis=0)
+
+
+def road_of(scene: ComposedScene) -> tuple[RoadLine, float]:
+    """The road or shore of a scene, and half its width."""
+    seen = scene.environment(0.0)
+    x, y = map(float, seen.road_offset)
+    return RoadLine(seen.road_angle, (x, y)), float(seen.road_half_width)

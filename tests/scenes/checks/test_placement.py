@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.scenes.staged import DURATION_S, SIZE, stage, thing
+from tests.scenes.staged import DURATION_S, SIZE, road_of, stage, thing
 
 from texvent_scenes.checks.placement import find_misplaced
 from texvent_scenes.description import SceneDescription
@@ -12,7 +12,6 @@ from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.scene_input import understand
 from texvent_scenes.spec.scene import Place
 from texvent_scenes.staging.compose import compose_scene
-from texvent_scenes.staging.surroundings.environment import RoadLine
 
 TIMES_S = np.linspace(0.0, DURATION_S, 7)
 
@@ -27,12 +26,6 @@ def faults(said, scene, actors=None):
         said, scene.place, scene.environment(0.0), actors or scene.actors, TIMES_S
     )
     return [one.line for one in found if one.line]
-
-
-def road_of(scene):
-    seen = scene.environment(0.0)
-    x, y = map(float, seen.road_offset)
-    return RoadLine(seen.road_angle, (x, y)), float(seen.road_half_width)
 
 
 def across(scene, noun):

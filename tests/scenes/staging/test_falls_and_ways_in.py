@@ -1,25 +1,14 @@
 """What breaks, what comes down into something, and places that one moves through."""
 
 import itertools
-from functools import cache
 
 import numpy as np
 import pytest
+from tests.scenes.test_short_prompts import staged
 
-from texvent.sensor import SensorSize
 from texvent_scenes.models.anchors import find_rim
-from texvent_scenes.scene_input import list_nouns, understand
-from texvent_scenes.staged_prompt import stage
 
-SIZE, CLIP_S = SensorSize(173, 130), 2.0
-
-
-@cache
-def staged(text):
-    """The staged scene of a sentence, and its report."""
-    nouns = list_nouns()
-    scene = understand(text, nouns)
-    return stage(scene, scene.words, nouns, seed=0, size=SIZE, duration_s=CLIP_S)[:2]
+CLIP_S = 2.0
 
 
 def faults(text):

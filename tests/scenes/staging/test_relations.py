@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from tests.scenes.every_row import for_every
-from tests.scenes.staged import stage, thing
+from tests.scenes.staged import road_of, stage, thing
 
 from texvent.sensor import SensorSize
 from texvent_scenes.defaults import complete
@@ -169,13 +169,6 @@ def test_a_shore_keeps_scenery_dry_and_boats_afloat(noun, is_wet):
     normal = np.array([-np.sin(angle), np.cos(angle)])
     assert ((scene.still.to_world[:, :2, 3] - origin) @ normal < 1.0).all()
     assert bool((scene.actors[0].middle(0.0)[:2] - origin) @ normal > 0.0) == is_wet
-
-
-def road_of(scene):
-    """The road of a scene, and half its width."""
-    found = scene.environment(0.0)
-    x, y = found.road_offset
-    return RoadLine(found.road_angle, (float(x), float(y))), found.road_half_width
 
 
 @given(st.floats(-4.0, 4.0), st.floats(-40.0, 40.0))

@@ -4,17 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.scenes.staged import DURATION_S, SIZE
+from tests.scenes.staged import DURATION_S, SIZE, box
 from tests.scenes.staging.test_containers import lost_relations, staged
 
 from texvent_scenes.checks.in_view import find_unseen
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.tables import nouns_with, trait_values
-
-
-def box(actor, time_s):
-    corners = actor.corners(time_s)
-    return corners.min(axis=0), corners.max(axis=0)
 
 
 def moved(scene, actor, shift):

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from tests.scenes.staged import DURATION_S, SIZE, in_image
+from tests.scenes.staged import DURATION_S, SIZE, box, in_image
 from tests.scenes.staging.test_containers import lost_relations, staged
-from tests.scenes.staging.test_resting_places import box, moved
+from tests.scenes.staging.test_resting_places import moved
 from tests.scenes.test_short_prompts import is_right
 from tests.scenes.test_short_prompts import staged as staged_short
 

@@ -2,17 +2,13 @@
 
 import numpy as np
 import pytest
+from tests.scenes.staged import box
 from tests.scenes.test_short_prompts import staged
 
 from texvent_scenes.checks.water import wet_share
 from texvent_scenes.models.places import PLACES
 
 TIMES = np.linspace(0.0, 2.0, 9)
-
-
-def box(actor, time_s):
-    corners = actor.corners(float(time_s))
-    return corners.min(axis=0), corners.max(axis=0)
 
 
 @pytest.mark.parametrize(

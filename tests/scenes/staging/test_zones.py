@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from tests.scenes.staged import SIZE, stage, thing
+from tests.scenes.staged import SIZE, road_of, stage, thing
 
 from texvent_scenes.models.activities import HAND_NOUNS
 from texvent_scenes.models.nouns import NOUNS
@@ -14,7 +14,7 @@ from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.scene_input import understand
 from texvent_scenes.spec.scene import Motion, SceneObject
 from texvent_scenes.staging.actors import Actor, seeded
-from texvent_scenes.staging.compose import ComposedScene, compose_scene, kind_of
+from texvent_scenes.staging.compose import compose_scene, kind_of
 from texvent_scenes.staging.placement.zones import zone_of
 from texvent_scenes.staging.surroundings.environment import RoadLine
 from texvent_scenes.staging.surroundings.scenery import ViewClearance, scatter
@@ -31,12 +31,6 @@ STREETS = {
     "traffic": (thing("car", ("drive",), count=2), thing("truck", ("drive",))),
     "standing": (thing("taxi", ("stand",)), thing("fire hydrant", ("stand",))),
 }  # fmt: skip
-
-
-def road_of(scene: ComposedScene) -> tuple[RoadLine, float]:
-    seen = scene.environment(0.0)
-    x, y = seen.road_offset
-    return RoadLine(seen.road_angle, (float(x), float(y))), float(seen.road_half_width)
 
 
 def boxes(actor: Actor) -> np.ndarray:
