@@ -37,7 +37,7 @@ _ALONG = frozenset({"walk", "run", "drive", "roll", "fly", "crawl", "slide"})
 _ROCKING = 0.5
 """Pace at which what floats rocks on waves, as a share of that of a sway."""
 _IN_WATER = ("swim", "surf", "plunge", *_AFLOAT)
-_DARK_EFFECTS = frozenset({"fireworks"})
+_DARK_EFFECTS = frozenset({"fireworks", "fireflies"})
 _PLACES_OF_TRAVEL = {"drive": "road", "cycle": "road", "sail": "sea", "swim": "underwater"}
 _NO_GROUND = ("sky", "space", "underwater")
 _FAST_FLYER_M_S = 9.0

@@ -59,6 +59,7 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
     _hang_up(draft)
     _lead_round(draft)
     _turn_marks(draft)
+    _bring_home(draft)
     _limit_counts(draft)
     fates: dict[str, str] = {}
     for token, after in zip(draft.tokens, (*draft.tokens[1:], NO_TOKEN), strict=False):
@@ -221,6 +222,16 @@ def _lead_round(draft: SceneDraft) -> None:
         told = {each["kind"] for each in one["relations"]} & (PLACING | {"around"})
         if kinds == ["orbit"] and not told:
             draft.relate(index, "around", rings[:1])
+
+
+def _bring_home(draft: SceneDraft) -> None:
+    """Set the place that a compound names where no other is said: "a street musician"."""
+    for before, head, noun in draft.homes:
+        name = before.all("place")[0].value
+        if draft.parts["place"].setdefault("name", name) == name:
+            draft.show(before)
+        else:
+            draft.merge_compound(before, head, noun)
 
 
 _LIGHT = 0.3

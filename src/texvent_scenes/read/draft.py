@@ -163,6 +163,8 @@ class SceneDraft(Abilities):
     one."""
     compounds: dict[int, str] = field(default_factory=dict)
     """Number of a token → the compound of which it is the head, and which is shown as it."""
+    homes: list[tuple[Token, Token, str]] = field(default_factory=list)
+    """Places before names of those who go anywhere, such as "street" of "a street cat"; their nouns."""
 
     def show(self, *tokens: Token) -> None:
         """Count tokens as shown, unless they are lost or shown as something else."""
@@ -478,9 +480,16 @@ class SceneDraft(Abilities):
         no_kinds = word_set("things", "adjectives") | word_set("things", "masses")  # "a glass pot"
         is_noun &= before.text.isalpha() and before.text not in no_kinds
         if is_noun and before in words and not self.shows(before):
-            self.compounds[head.at] = f"{before.text} {head.text}"
-            self.mark(before, "")
-            self.mark(head, noun)
+            if before.has("place") and self.nouns[noun].speed_m_s:
+                self.homes.append((before, head, noun))  # "a street cat"
+            else:
+                self.merge_compound(before, head, noun)
+
+    def merge_compound(self, before: Token, head: Token, noun: str) -> None:
+        """Report two words as one, which is shown as a noun."""
+        self.compounds[head.at] = f"{before.text} {head.text}"
+        self.mark(before, "")
+        self.mark(head, noun)
 
     def _fill_place(self, token: Token, place: str) -> None:
         """Add those of whom a place is full: "a busy street"."""
@@ -521,4 +530,4 @@ class SceneDraft(Abilities):
         elif (name == "sky" and is_said) or place.setdefault("name", name) == name or (
             head.is_liquid and place["name"] in word_set("things", "waters")
         ):  # fmt: skip
-            self.show(head)
+            self.mark(head, name if head.text in word_set("things", "cities") else "shown")
