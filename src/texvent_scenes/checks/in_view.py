@@ -52,6 +52,8 @@ MOST_POINTS = 12_000
 LEAST_PIXELS, _LEAST_AREA, _LEAST_BALL = 6, 0.0007, 0.0003
 """Pixels, and share of the image, below which an object is too small to be told; of a ball, which
 its outline tells."""
+_SMALL_AREA = 0.002
+"""Share of the image below which a note tells that an object is small."""
 LEAST_SEEN = 0.15
 """Share of an object's pixels that nothing stands before; of less it is hidden, and a copy of
 several too of which less is inside the image."""
@@ -112,6 +114,7 @@ def find_unseen(
     is_close = description.camera.framing == "close" and scene.actors
     close = choose_main(description, scene.actors).object_index if is_close else None
     outside, small, bodies = list[str](), list[str](), list[list[BodyBoxes]]()
+    notes = list[str]()
     unseen, partly = {*scene.missing}, set[int]()
     for index, thing in enumerate(description.objects):
         own = [one for one in scene.actors if one.object_index == index]
@@ -124,6 +127,9 @@ def find_unseen(
                            is_close=index == close)  # fmt: skip
             if any(_is_entered(*each, clip) for each in zip(own, seen_own, strict=True)):
                 found = _Judged(is_unseen=False)
+            most = max(view.pixels for view in seen_own)
+            if found.words is None and most < _SMALL_AREA * size.width * size.height:
+                notes.append(f"the {thing.noun} is small in the picture: about {most} pixels")
             lines = small if found.is_small else outside
             lines += [f"{thing.noun}{found.words}"] if found.words is not None else []
             unseen |= {index} if found.is_unseen else set()
@@ -141,7 +147,7 @@ def find_unseen(
     violations += find_tiny(description, scene.actors, cameras, times, size)
     violations += find_near(scene, description, cameras, times)
     violations += find_misframed(scene, description, cameras, times, size)
-    notes = [*list_hidden(scene, seen, cameras, times, size)]
+    notes += [*list_hidden(scene, seen, cameras, times, size)]
     notes += () if description.camera.is_moving else list_departures(scene, cameras, times, size)
     return Unseen(
         tuple(dict.fromkeys(outside)), tuple(dict.fromkeys(small)),

@@ -124,6 +124,15 @@ def test_a_note_tells_how_long_a_still_camera_shows_what_moves():
     assert kinds == {"leaves", "is"}
 
 
+@pytest.mark.parametrize("noun", ["football", "cup", "rock", "house"])
+@pytest.mark.parametrize(("share", "is_noted"), [(0.0012, True), (0.0035, False)])
+def test_a_note_tells_of_what_is_small_in_the_picture(noun, share, is_noted):
+    model = stage(SceneObject(noun), place="plain").actors[0].model
+    away_m = USUAL_FOCAL * np.sqrt(model.width * model.height * SIZE.width / SIZE.height / share)
+    notes = unseen_from(SceneObject(noun), position=(0.0, -away_m, 1.0)).notes
+    assert any(one.startswith(f"the {noun} is small") for one in notes) == is_noted
+
+
 def test_pixels_of_small_things_are_counted_one_by_one():
     scene = stage(SceneObject("ball"), SceneObject("house"), place="plain")
     scene = replace(scene, camera_path=replace(scene.camera_path, moves=(), tie=None))
