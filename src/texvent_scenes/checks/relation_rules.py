@@ -314,6 +314,8 @@ def _emerges(one: BodyBoxes, other: BodyBoxes) -> _Flags:
     """Whether it is behind the other in the image at first, and no longer at the end."""
     top_m = one.middle[0, 2] + 0.5 * one.size[0, 2]
     low = other.parts[other.parts[:, 0, 2] < top_m]
+    if not len(low):
+        return np.array([False])
     wide = [np.ptp(low.reshape(-1, 3)[:, :2], axis=0).max(), one.size[0, :2].max()]
     half = sum(0.5 * width / np.maximum(body.seen[:, 2], 1e-3)
                for width, body in zip(wide, (other, one), strict=True))  # fmt: skip
