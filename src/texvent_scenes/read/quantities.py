@@ -106,7 +106,7 @@ def read_quantity(words: Sequence[str], at: int, lexicon: Units) -> Found:
                 least, most = _RANGES.get(field, _HERTZ)
                 is_shown = least <= number * factor <= most
                 said = ("adverb", (field, number * factor))
-                return 1 + length, (said,) if is_shown else ()
+                return 1 + len(unit), (said,) if is_shown else ()
     if unit_m := _lengths().get(" ".join(words[at + 1 : at + 2]).casefold()):
         return 2, (("adverb", ("distance_m", unit_m * number)),)  # "2 m behind a car"
     count = ("field", ("count", max(1, min(round(number), MAX_COUNT))))

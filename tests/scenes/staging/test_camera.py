@@ -9,10 +9,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from tests.examples import examples
+from tests.scenes.every_row import for_every
 from tests.scenes.staged import DURATION_S, SIZE, stage, thing
 
 from texvent.camera import project
-from texvent_scenes.spec.scene import Camera, CameraMove, Motion, MoveKind, SceneObject
+from texvent_scenes.spec.scene import Camera, CameraMove, Motion, MoveKind, SceneObject, View
 from texvent_scenes.staging.camera.camera_track import CameraTrack
 from texvent_scenes.staging.camera.framing import come_near, fit, image_of, measure_prominence
 
@@ -60,6 +61,33 @@ def test_the_camera_stops_where_the_subject_reaches_the_goal(goal):
     image = project(camera_at(found), SIZE, subject)[:, :2]
     assert np.all(image >= 0.0)
     assert np.all(image <= [SIZE.width, SIZE.height])
+
+
+def extent_of(scene):
+    """Focal length over depth of the subject's middle, which its size in the image goes with."""
+    camera = scene.camera(0.5 * DURATION_S)
+    middle = scene.actors[0].middle(0.5 * DURATION_S)
+    return camera.focal / image_of(camera, middle)[2]
+
+
+SHOTS = [
+    *({"view": view, "framing": framing} for view in (None, *get_args(View)) for framing in
+      (None, "close", "medium", "full", "wide")),
+    {"position_m": (3.0, -9.0, 2.0), "look_at_m": (0.0, 0.0, 0.5)},
+]  # fmt: skip
+
+
+@for_every(SHOTS)
+def test_with_any_angle_of_view_a_subject_keeps_its_size_or_a_camera_its_place(shot):
+    usual = stage(thing("car"), camera=Camera(**shot))
+    for degrees in (8.0, 30.0, 70.0, 110.0):
+        scene = stage(thing("car"), camera=Camera(**shot, field_of_view_deg=degrees))
+        camera, before = (one.camera(0.5 * DURATION_S) for one in (scene, usual))
+        assert math.degrees(2.0 * math.atan(0.5 / camera.focal)) == pytest.approx(degrees)
+        if "position_m" in shot:
+            np.testing.assert_allclose(camera.position, before.position)
+        else:
+            assert extent_of(scene) == pytest.approx(extent_of(usual), rel=0.1), (shot, degrees)
 
 
 def film(*shot, noun="dog", motion=("stand",)):
