@@ -88,12 +88,16 @@ def test_a_number_beyond_all_is_not_understood(text):
 
 LEXICON = lexicon_of(None)
 AFTER = read_table("words", "read")["said_after"]
-RANGES = {"speed_m_s": (0.0, 1000.0), "start_s": (0.0, 86_400.0), "height_m": (0.0, 10_000.0)}
+RANGES = {"speed_m_s": (0.0, 1000.0), "start_s": (0.0, 86_400.0)} | dict.fromkeys(
+    ("height_m", "distance_m"), (0.0, 10_000.0)
+)
 QUANTITIES = [
     *((partial(read_quantity, lexicon=LEXICON), f"{{}} {' '.join(unit)}", *one.value)
       for unit, senses in LEXICON.items() for one in senses if one.kind == "unit"),
-    *((read_height, f"{{}} {unit} above the ground", "height_m", factor)
-      for unit, factor in AFTER["from"]["units"].items()),
+    *((read, f"{{}} {unit}{after}", field, factor)
+      for unit, factor in AFTER["from"]["units"].items()
+      for read, after, field in ((read_height, " above the ground", "height_m"),
+                                 (partial(read_quantity, lexicon=LEXICON), "", "distance_m"))),
     *((read_stated, f"{first} {{}} {unit}{' height' * (first == 'at')}", how["field"], factor)
       for first, how in AFTER.items() for unit, factor in how["units"].items()),
 ]  # fmt: skip
