@@ -1,5 +1,6 @@
 """The camera: how near it goes, its moves, and the route that it travels."""
 
+import itertools
 import math
 import re
 from typing import get_args
@@ -88,6 +89,20 @@ def test_with_any_angle_of_view_a_subject_keeps_its_size_or_a_camera_its_place(s
             np.testing.assert_allclose(camera.position, before.position)
         else:
             assert extent_of(scene) == pytest.approx(extent_of(usual), rel=0.1), (shot, degrees)
+
+
+@pytest.mark.parametrize("noun", ["car", "dog", "train", "person"])
+def test_who_comes_or_goes_away_is_seen_aslant_from_either_side(noun):
+    for way, shot in itertools.product(("towards", "away"), ((), (CameraMove("follow"),))):
+        sides = set()
+        for seed in range(4):
+            scene = stage(thing(noun, ("move", way)), camera=Camera(shot), seed=seed)
+            heading = np.subtract(*(scene.actors[0].middle(t)[:2] for t in (DURATION_S, 0.0)))
+            axis = scene.camera(0.0).rotation[2, :2]
+            turn = math.atan2(axis[0] * heading[1] - axis[1] * heading[0], axis @ heading)
+            assert 0.3 < abs(math.sin(turn)) < 0.95
+            sides.add(math.copysign(1.0, math.tan(turn)))
+        assert sides == {-1.0, 1.0}
 
 
 def film(*shot, noun="dog", motion=("stand",)):
