@@ -58,8 +58,7 @@ def test_a_body_goes_at_its_usual_speed_and_is_large_enough_where_it_is_seen(nou
     assert (path.passage_s is None and (path.tie is None)) != bool(path.notes)
 
 
-@pytest.mark.long
-@for_every(GOING)
+@for_every(GOING[::5])
 def test_what_is_steered_turns_in_its_length_and_others_on_their_heel(noun):
     (actor,) = goes(noun.name, "turn", "left").actors
     track, model = actor.track, actor.model
