@@ -5,10 +5,14 @@ import json
 import shutil
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import cv2
 import numpy as np
 import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
 
 import texvent
 from texvent.camera import PosedCamera
@@ -43,13 +47,16 @@ def dsec_decode(path):
     return (rgb[..., :2].astype(np.float32) - 2**15) / 128.0, rgb[..., 2] == 1
 
 
-def test_an_independent_reader_gets_x_y_and_validity(tmp_path):
-    flow = np.array([[[1.5, -2.25], [np.nan, 0.0]], [[300.0, 0.0], [-256.0, 255.9921875]]])
-    write_png(tmp_path / "f.png", encode_flow(flow))
-    read, valid = dsec_decode(tmp_path / "f.png")
-    assert valid.tolist() == [[True, False], [False, True]]
-    assert read[0, 0].tolist() == [1.5, -2.25]
-    assert read[1, 1].tolist() == [-256.0, 255.9921875]
+@given(st.lists(st.floats(-300.0, 300.0) | st.just(np.nan), min_size=8, max_size=8))
+@example([1.5, -2.25, np.nan, 0.0, 300.0, 0.0, -256.0, 255.9921875])
+def test_an_independent_reader_gets_x_and_y_to_half_a_step_and_validity(values):
+    flow, half = np.reshape(values, (2, 2, 2)), 0.5 / 128.0
+    with TemporaryDirectory() as folder:
+        write_png(Path(folder) / "f.png", encode_flow(flow))
+        read, valid = dsec_decode(Path(folder) / "f.png")
+    is_within = ((flow >= -256.0 - half) & (flow < 256.0 - half)).all(axis=2)
+    np.testing.assert_array_equal(valid, is_within)
+    np.testing.assert_allclose(read[valid], flow[valid], rtol=0.0, atol=half)
 
 
 def test_pngs_of_flow_are_that_flow(written):

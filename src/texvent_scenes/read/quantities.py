@@ -19,7 +19,10 @@ _LEVELS = ("sea", "water", "lake", "river", "road", "street", "grass", "field", 
 _HEIGHTS = ("height", "altitude")
 MAX_COUNT = 24
 """Most copies of one object."""
-_RANGES = {"speed_m_s": (0.0, 1000.0), "start_s": (0.0, 86_400.0), "height_m": (0.0, 10_000.0)}
+_RANGES = {
+    "speed_m_s": (0.0, 1000.0), "start_s": (0.0, 86_400.0), "height_m": (0.0, 10_000.0),
+    "distance_m": (0.0, 10_000.0),
+}  # fmt: skip
 _HERTZ = (0.001, 100_000.0)
 """Least and most of a quantity of scenes."""
 _SIGNS = str.maketrans("−⁄", "-/")
@@ -98,16 +101,14 @@ def read_quantity(words: Sequence[str], at: int, lexicon: Units) -> Found:
     except (ValueError, ZeroDivisionError, OverflowError):
         return 1, ()
     number = -number if text.startswith("-") else number
-    for length in (3, 2, 1):
-        unit = tuple(word.casefold() for word in words[at + 1 : at + 1 + length])
-        for sense in lexicon.get(unit, ()):
-            if sense.kind == "unit":
-                field, factor = sense.value
-                least, most = _RANGES.get(field, _HERTZ)
-                is_shown = least <= number * factor <= most
-                said = ("adverb", (field, number * factor))
-                return 1 + length, (said,) if is_shown else ()
-    if unit_m := _lengths().get(" ".join(words[at + 1 : at + 2]).casefold()):
-        return 2, (("adverb", ("distance_m", unit_m * number)),)  # "2 m behind a car"
+    units = [tuple(one.casefold() for one in words[at + 1 : at + 1 + most]) for most in (3, 2, 1)]
+    senses = [(unit, one.value) for unit in units for one in lexicon.get(unit, ())
+              if one.kind == "unit"]  # fmt: skip
+    if unit_m := _lengths().get(" ".join(units[-1])):
+        senses.append((units[-1], ("distance_m", unit_m)))  # "2 m behind a car"
+    for unit, (field, factor) in senses[:1]:
+        least, most = _RANGES.get(field, _HERTZ)
+        said = ("adverb", (field, number * factor))
+        return 1 + len(unit), (said,) * (least <= number * factor <= most)
     count = ("field", ("count", max(1, min(round(number), MAX_COUNT))))
     return 1, (count,) if number >= 0.0 and number.is_integer() else ()

@@ -1,6 +1,7 @@
 """Models of files as nouns: names, sizes, GLB, OBJ and PLY, bad files."""
 
 import zlib
+from itertools import permutations
 from pathlib import Path
 
 import cv2
@@ -128,7 +129,7 @@ SIDES = [
     ("thing", {}, 1500.0, 1500.0, 1.5),  # millimetres
     ("sports car", {}, 7.0, 7.0, max(USUAL.length, USUAL.width, USUAL.height)),
     ("car", {"scale": 0.5, "height": 9.0, "length": 9.0}, 7.0, 3.5, 3.5),
-    ("car", {"height": 2.0, "length": 9.0}, 7.0, 4.0, 4.0),  # twice as long as high
+    ("car", {"height": 2.0, "length": 9.0}, 7.0, 2.0, 2.0),  # of its height
     ("car", {"length": 9.0}, 7.0, 9.0, 9.0),
 ]
 
@@ -138,13 +139,17 @@ SIDES = [
 def test_a_model_is_as_large_as_its_index_its_unit_or_its_noun_says(
     tmp_path, noun, said, side, glb_m, other_m, ending
 ):
-    corners = [[0.0, 0.0, 0.0], [side, 0.0, 0.0], [0.0, 0.5 * side, 0.0]]
-    path = write_model(tmp_path / f"thing.{ending}", corners, [0, 1, 2])
-    asset = Asset(path, noun, up="y", forward="x", **said)
-    for scale in (1.0, 2.0):
-        model = load_model(asset, scale=scale)
-        expected = scale * (glb_m if ending == "glb" else other_m)
-        assert (model.length, model.height) == pytest.approx((expected, 0.5 * expected))
+    for sides in permutations((1.0, 0.5, 0.2)):
+        ahead, across, above = np.multiply(side, sides)
+        corners = [[0.0, 0.0, 0.0], [ahead, 0.0, across], [0.0, above, 0.0]]
+        path = write_model(tmp_path / f"{sides}.{ending}", corners, [0, 1, 2])
+        asset = Asset(path, noun, up="y", forward="x", **said)
+        for scale in (1.0, 2.0):
+            model = load_model(asset, scale=scale)
+            expected = scale * (glb_m if ending == "glb" else other_m)
+            of = sides[2] if next(iter(said), "") == "height" else 1.0
+            extents = np.array([model.length, model.width, model.height])
+            np.testing.assert_allclose(extents, np.multiply(expected / of, sides), rtol=1e-5)
 
 
 def test_an_asset_takes_the_place_of_the_embedded_noun_and_its_habits(tmp_path):

@@ -1,5 +1,8 @@
 """Sentences become scenes, and every word of them is accounted for."""
 
+from functools import partial
+
+import numpy as np
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
@@ -9,8 +12,10 @@ from tests.scenes.read.expected import PROMPTS, grade, say, sentences
 from texvent.errors import InputError
 from texvent_scenes import read as reader
 from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.models.tables import read_table
 from texvent_scenes.read.draft import is_grammar
 from texvent_scenes.read.lexicon import lexicon_of
+from texvent_scenes.read.quantities import read_height, read_quantity, read_stated
 from texvent_scenes.read.tokens import split_prompt
 from texvent_scenes.scene_input import list_words, read
 from texvent_scenes.spec.data import checked_scene
@@ -79,6 +84,34 @@ def test_sentences_say(prompt, expected):
 def test_a_number_beyond_all_is_not_understood(text):
     lost = reader.read(text.format("7" * 400), NOUNS).not_understood
     assert any("7" * 400 in one for one in lost)
+
+
+LEXICON = lexicon_of(None)
+AFTER = read_table("words", "read")["said_after"]
+RANGES = {"speed_m_s": (0.0, 1000.0), "start_s": (0.0, 86_400.0)} | dict.fromkeys(
+    ("height_m", "distance_m"), (0.0, 10_000.0)
+)
+QUANTITIES = [
+    *((partial(read_quantity, lexicon=LEXICON), f"{{}} {' '.join(unit)}", *one.value)
+      for unit, senses in LEXICON.items() for one in senses if one.kind == "unit"),
+    *((read, f"{{}} {unit}{after}", field, factor)
+      for unit, factor in AFTER["from"]["units"].items()
+      for read, after, field in ((read_height, " above the ground", "height_m"),
+                                 (partial(read_quantity, lexicon=LEXICON), "", "distance_m"))),
+    *((read_stated, f"{first} {{}} {unit}{' height' * (first == 'at')}", how["field"], factor)
+      for first, how in AFTER.items() for unit, factor in how["units"].items()),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("read", "text", "field", "factor"), QUANTITIES)
+def test_a_quantity_in_any_unit_is_understood_up_to_its_bounds(read, text, field, factor):
+    least, most = RANGES.get(field, (0.001, 100_000.0))
+    inside = (least + 1e-6, *np.geomspace(least + 0.01, most, 9) * (1.0 - 1e-9))
+    for value in (*inside, least - 1e-6, most * 1.001):
+        words = text.format(f"{value / factor:.12f}").split()
+        length, said = read(words, 0) or (len(words), ())
+        expected = [("adverb", (field, pytest.approx(value)))] if value in inside else []
+        assert (length, list(said)) == (len(words), expected)
 
 
 @pytest.mark.parametrize(

@@ -76,15 +76,36 @@ def test_a_file_of_kalibr_is_read(tmp_path):
     assert rig.first_from_imu[:3, 3].tolist() == [0.01, 0.02, 0.03]
 
 
-def test_what_is_written_reads_back_the_same(tmp_path):
-    rig, _ = read_rig(write(tmp_path, KALIBR), SIZE)
-    topics = {camera.name: f"/{camera.name}/image_raw" for camera in rig.cameras}
-    text = camchain(rig, topics, has_imu=True)
-    again, _ = read_rig(write(tmp_path, text, "again.yaml"), SIZE)
-    for one, other in zip(rig.cameras, again.cameras, strict=True):
-        assert (one.size, one.lens) == (other.size, other.lens)
-        np.testing.assert_allclose(one.from_first, other.from_first, atol=1e-15)
-    np.testing.assert_allclose(again.first_from_imu, rig.first_from_imu, atol=1e-15)
+NUMBERS = st.lists(st.floats(-3.0, 3.0), min_size=6, max_size=6)
+
+
+@given(steps=st.lists(NUMBERS, min_size=2, max_size=5), has_imu=st.booleans())
+def test_of_any_cameras_each_is_written_by_the_one_before_and_reads_back(steps, has_imu):
+    """The first step is from the IMU to the first camera, each other one from camera to camera."""
+    maps = [np.eye(4) for _ in steps]
+    for one, numbers in zip(maps, steps, strict=True):
+        one[:3, :3], one[:3, 3] = cv2.Rodrigues(np.array(numbers[:3]))[0], numbers[3:]
+    first_from_imu, *maps = maps
+    lens = Lens(300.0, 301.0, 170.0, 131.0, "radtan", (-0.1, 0.01, 1e-4, 1e-5))
+    cameras, from_first = [RigCamera("cam0", SIZE, lens)], np.eye(4)
+    for number, one in enumerate(maps, start=1):
+        from_first = one @ from_first
+        cameras.append(RigCamera(f"cam{number}", SensorSize(240, 180), None, from_first))
+    text = camchain(Rig(tuple(cameras), first_from_imu), {}, has_imu=has_imu)
+    written, from_imu = yaml.safe_load(text), first_from_imu
+    for number, one in enumerate([np.eye(4), *maps]):
+        entry, from_imu = written[f"cam{number}"], one @ from_imu
+        assert ("T_cn_cnm1" in entry, "T_cam_imu" in entry) == (number > 0, has_imu)
+        np.testing.assert_allclose(entry.get("T_cn_cnm1", one), one, atol=1e-9)
+        np.testing.assert_allclose(entry.get("T_cam_imu", from_imu), from_imu, atol=1e-9)
+    with TemporaryDirectory() as folder, warnings.catch_warnings():
+        warnings.simplefilter("ignore", TexventWarning)  # far apart
+        again = read_rig(write(Path(folder), text), SensorSize(9, 9))[0]
+    for one, other in zip(cameras, again.cameras, strict=True):
+        assert (one.name, one.size, one.lens) == (other.name, other.size, other.lens)
+        np.testing.assert_allclose(one.from_first, other.from_first, atol=1e-9)
+    expected = first_from_imu if has_imu else np.eye(4)
+    np.testing.assert_allclose(again.first_from_imu, expected, atol=1e-9)
 
 
 def test_names_of_the_fields_are_kalibrs(tmp_path):

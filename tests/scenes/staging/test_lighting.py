@@ -6,12 +6,16 @@ import numpy as np
 import pytest
 from tests.scenes.staged import SIZE, stage, thing
 
-from texvent_scenes.models.effects import LAMPS, lamp_of
+from texvent_scenes.models.effects import LAMPS, LampKind, lamp_of
 from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.models.protocol import ModelPart
 from texvent_scenes.raycast.render import render
+from texvent_scenes.rendered_scene import Shape
 from texvent_scenes.scene_input import describe_scene, list_nouns
 from texvent_scenes.spec.scene import Camera, Lamp, Light, Place, Scene, SceneObject
 from texvent_scenes.staging.compose import compose_scene
+from texvent_scenes.staging.surroundings.lamps import part_lamp
+from texvent_scenes.staging.surroundings.lighting import hidden_lamp
 
 CAR = thing("car", ("drive", "left"))
 
@@ -73,6 +77,28 @@ def test_every_lamp_noun_sheds_light_when_it_is_lit(noun):
     rows = scene.environment(0.0).lamps
     assert (rows["casts"] > 0.0).sum() <= 4
     assert all(np.isfinite(rows[name]).all() for name in rows.dtype.names)
+
+
+@pytest.mark.parametrize("half_angle", [1.0, 15.0, 60.0, 90.0, 150.0])
+@pytest.mark.parametrize("soft_share", [0.0, 0.3, 1.0])
+def test_a_beam_fades_out_at_its_half_angle_from_its_direction(half_angle, soft_share):
+    part = ModelPart(Shape.BOX, np.eye(3, 4), (1.0, 1.0, 1.0))
+    lamp = LampKind(1.0, (0.0, 3.0, 4.0), half_angle, soft_share)
+    (row,) = part_lamp(lamp, part, np.eye(3, 4), 1.0)
+    faded, full = np.degrees(np.arccos([row["dark"], row["full"]]))
+    assert (faded, full) == pytest.approx((half_angle, half_angle * (1.0 - soft_share)), abs=1e-6)
+    np.testing.assert_allclose(row["beam"], [0.0, 0.6, 0.8])
+
+
+@pytest.mark.parametrize("reach_m", [1.0, 3.0, 20.0, 200.0])
+def test_a_lamp_out_of_sight_stands_off_by_shares_of_the_distance_and_lights_alike(reach_m):
+    target = np.array([5.0, -2.0, 0.3])
+    (near,), (row,) = (hidden_lamp(target, one, 0.5) for one in (2.0, reach_m))
+    off = (row["place"] - target) / reach_m
+    np.testing.assert_allclose(off, (near["place"] - target) / 2.0)
+    assert 0.3 < off[2] < np.linalg.norm(off) < 1.0
+    light = row["light"] / row["place"][2] ** 2
+    np.testing.assert_allclose(light, near["light"] / near["place"][2] ** 2)
 
 
 def placed(*lamps):

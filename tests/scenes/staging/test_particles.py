@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.scenes.staged import SIZE, stage
+from tests.scenes.staged import SIZE, stage, thing
 
 from texvent_scenes.models.effects import EFFECTS
 from texvent_scenes.raycast.ground_truth import ground_truth
@@ -115,3 +115,14 @@ def test_slow_motion_of_particles_begins_with_them(start_s, pace):
     for after_s in (0.05, 0.2, 0.5):
         found, expected = shown.at(start_s + after_s), usual.at(start_s + pace * after_s)
         np.testing.assert_allclose(found.to_world, expected.to_world, atol=1e-9)
+
+
+@pytest.mark.parametrize("pace", [0.5, 0.2])
+def test_pieces_fly_at_the_pace_of_what_breaks(pace):
+    slow, usual = (stage(thing("vase", ("break", None, one)), place="plain") for one in (pace, 1.0))
+    for after_s in (0.05, 0.2, 0.5):
+        found, expected = (
+            [one.at(scene.actors[0].breaks_s + after).to_world for one in scene.particles.effects]
+            for scene, after in ((slow, after_s), (usual, pace * after_s))
+        )
+        np.testing.assert_allclose(np.concatenate(found), np.concatenate(expected), atol=1e-9)

@@ -6,7 +6,7 @@ from tests.scenes.every_row import for_every
 from tests.scenes.staged import DURATION_S, SIZE, in_image, middle, stage, thing
 
 from texvent_scenes.models.nouns import NOUNS
-from texvent_scenes.models.tables import trait_values
+from texvent_scenes.models.tables import nouns_with, trait_values
 from texvent_scenes.spec.scene import Camera, CameraMove, Motion, SceneObject
 from texvent_scenes.staging.camera.framing import image_of, measure_prominence
 from texvent_scenes.staging.placement.zones import zone_of
@@ -56,6 +56,19 @@ def test_a_body_goes_at_its_usual_speed_and_is_large_enough_where_it_is_seen(nou
     path = scene.camera_path
     assert np.all(in_view(scene, np.linspace(*path.framed_s, 5)))
     assert (path.passage_s is None and (path.tie is None)) != bool(path.notes)
+
+
+@for_every(GOING[::5])
+def test_what_is_steered_turns_in_its_length_and_others_on_their_heel(noun):
+    (actor,) = goes(noun.name, "turn", "left").actors
+    track, model = actor.track, actor.model
+    states = np.array([[*track.at(t).position[:2], track.at(t).yaw] for t in np.arange(0, 2, 0.01)])
+    turned = np.diff(np.unwrap(states[:, 2]))
+    ways = np.linalg.norm(np.diff(states[:, :2], axis=0), axis=1)[turned > 1e-4]
+    radius, length = (ways / turned[turned > 1e-4]).min(), model.length
+    is_steered = noun.motion in ("drive", "sail") or noun.name in nouns_with("takes off")
+    on_heel_m = max(0.31 * length, noun.speed_m_s / 1.7)
+    assert radius > 0.89 * length if is_steered else radius < on_heel_m
 
 
 @pytest.mark.long

@@ -6,9 +6,13 @@ import re
 import webbrowser
 
 import numpy as np
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
 
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
+from texvent.view.page.html_parts import count_text
 from texvent.view.page.writer import PageWriter, show
 
 SIZE = SensorSize(40, 30)
@@ -21,6 +25,17 @@ HOSTILE = (
 def make_events(count: int, metadata: dict[str, object] | None = None) -> EventStream:
     step = np.arange(count)
     return EventStream(step % 40, step % 30, 1_000 + step * 100, step % 2, SIZE, metadata or {})
+
+
+@example(999_999)
+@example(999_600_000_000)
+@given(st.floats(0.0, 14.0).map(lambda one: round(10.0**one)))
+def test_a_count_of_any_size_is_written_with_three_digits_and_its_unit(count):
+    said = count_text(count)
+    figure, _, unit = said.partition(" ")
+    shown = float(figure) * {"": 1.0, "k": 1e3, "M": 1e6, "G": 1e9}[unit]
+    assert shown == pytest.approx(count, rel=0.05 if count >= 0.9995e12 else 0.005)
+    assert ("e+" in figure, unit == "") == (count >= 0.9995e12, not 1000 <= count < 0.9995e12)
 
 
 def data_of(page: str) -> dict[str, object]:

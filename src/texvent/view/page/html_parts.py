@@ -70,9 +70,10 @@ def count_text(count: float) -> str:
         >>> count_text(1_234_567), count_text(950)
         ('1.23 M', '950')
     """
+    rounded = float(f"{count:.3g}")  # 999 999 is 1 M
     for size, letter in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
-        if count >= size:
-            return f"{count / size:.3g} {letter}" if count < 1000 * size else f"{count:.2g}"
+        if rounded >= size:
+            return f"{rounded / size:.3g} {letter}" if rounded < 1000 * size else f"{count:.2g}"
     return f"{count:.0f}"
 
 
