@@ -205,6 +205,7 @@ class Abilities:
         is_unfit |= is_way and verb.kind == "move"
         is_unfit &= is_ground or is_way or verb.kind == "break" or bool(names & PERSON_NOUNS)
         is_unfit |= walks and verb.kind in word_set("things", "not_of_walkers")
+        is_unfit |= verb.kind == "roll" and names <= nouns_with("rooted")
         return False if is_unfit else None
 
     def _suits(self, who: str, names: set[str]) -> bool:

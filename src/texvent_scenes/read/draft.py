@@ -530,4 +530,4 @@ class SceneDraft(Abilities):
         elif (name == "sky" and is_said) or place.setdefault("name", name) == name or (
             head.is_liquid and place["name"] in word_set("things", "waters")
         ):  # fmt: skip
-            self.mark(head, name if head.text in word_set("things", "cities") else "shown")
+            self.mark(head, name if head.text in word_set("things", "stand_ins") else "shown")
