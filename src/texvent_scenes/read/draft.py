@@ -164,7 +164,7 @@ class SceneDraft(Abilities):
     compounds: dict[int, str] = field(default_factory=dict)
     """Number of a token → the compound of which it is the head, and which is shown as it."""
     homes: list[tuple[Token, Token, str]] = field(default_factory=list)
-    """Places before names of those who go anywhere, such as "street" of "a street cat"; their nouns."""
+    """Places before names of those who go anywhere, as of "a street cat"; their nouns."""
 
     def show(self, *tokens: Token) -> None:
         """Count tokens as shown, unless they are lost or shown as something else."""

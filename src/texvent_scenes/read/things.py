@@ -413,7 +413,8 @@ class ThingReader:
     def _relate_act(self, kind: str, verb: Token, index: int, objects: Sequence[int]) -> None:
         """Relate who acts to what the act is about, on a way that the staged scene holds."""
         draft, who = self._draft, ridden_by(self._draft, index, kind)
-        if kind == "follow" and nouns_with("runs on") & {draft.things[one]["noun"] for one in objects}:
+        about = {draft.things[one]["noun"] for one in objects}
+        if kind == "follow" and about & nouns_with("runs on"):
             kind = "past"  # "follows a pipe"
         if kind == "lead":
             return lead_on(draft, verb, index, objects)
