@@ -11,7 +11,7 @@ from texvent_scenes.read.lexicon import VerbSense, word_set
 from texvent_scenes.read.tokens import Token
 
 EGO = "ego"
-"""What an act needs that is done to the vehicle of the camera."""
+"""Needs of an act that is done to the vehicle of the camera."""
 _SLOWER = 0.45
 """Speed of a camera that is overtaken, as a share of what overtakes it."""
 _ROAD_M_S = 9.0
