@@ -86,6 +86,10 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     )
 
 
+_LONG_TABLE = 12
+"""Rows from which on a brief run tries every second one."""
+
+
 def choose_rows(items: list[pytest.Item]) -> set[str]:
     """Names of the tests of a brief run; names alone decide which rows these have."""
     groups = defaultdict(list)
@@ -106,9 +110,10 @@ def choose_rows(items: list[pytest.Item]) -> set[str]:
                 if len(row - seen) >= fresh:
                     seen |= row
                     own.append(name)
-        # Sentences and nouns are many of a kind, and each is staged.
+        # Sentences and nouns are many of a kind, and each is staged; so are rows of long tables.
         is_of_scenes = own[0].startswith("tests/scenes/")
-        chosen |= {*own[: -(-len(own) // 4) if is_of_scenes else None]}
+        share = 4 if is_of_scenes else 2 if len(own) >= _LONG_TABLE else 1
+        chosen |= {*own[: -(-len(own) // share)]}
     return chosen
 
 
