@@ -48,7 +48,7 @@ _RUNNING = frozenset({"slide", "roll", "drive", "move"})
 _ROUND = frozenset({"on", "past", "at", "in", "through", "into"})
 """Relations to a ring that those who go have along it."""
 _SMALL_SET = 0.45
-"""Size of what stands behind things that are small enough to be thrown."""
+"""Size of a backdrop of things that are small enough to be thrown."""
 _SMALL = nouns_with("in hand or on something")
 
 
