@@ -36,7 +36,8 @@ def choose_senses(tokens: Sequence[Token], nouns: Mapping[str, Noun]) -> list[To
     mouse runs, or lies beside a keyboard. Where nothing does, the word is not understood.
     """
     tokens = [_see_as_young(_see_as_move(one, tokens), tokens) for one in _drop_similes(tokens)]
-    tokens = [replace(one, senses=()) if _is_of_light(one, tokens) else one for one in tokens]
+    tokens = [replace(one, senses=()) if _is_of_light(one, tokens) or _is_state(one, tokens)
+              else one for one in tokens]  # fmt: skip
     named = [_see_as_mass(_see_as_verb(one, tokens), tokens) for one in tokens]
     related = [_relate(one, tokens) for one in named]
     chosen = [_choose(one, related, nouns) if not one.senses else one for one in related]
@@ -68,6 +69,13 @@ def _see_as_young(token: Token, tokens: Sequence[Token]) -> Token:
     is_animal = any(NOUNS[one].acts or NOUNS[one].speed_m_s > 0.0 for one in animals & _LIVING)
     is_young = token.text in word_set("things", "young") and is_animal
     return replace(token, senses=(Sense("field", ("size", 0.5)),)) if is_young else token
+
+
+def _is_state(token: Token, tokens: Sequence[Token]) -> bool:
+    """Whether a participle says how the noun after it is anyway: "fallen leaves"."""
+    after = tokens[token.at + 1] if token.at + 1 < len(tokens) else NO_TOKEN
+    true_of = read_table("words", "read")["inherent"].get(token.text, ())
+    return token.has("verb") and any(one.value.noun in true_of for one in after.all("noun"))
 
 
 def _is_of_light(token: Token, tokens: Sequence[Token]) -> bool:
