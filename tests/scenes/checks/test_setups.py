@@ -2,8 +2,11 @@
 
 import numpy as np
 import pytest
+from tests.scenes.every_row import for_every
 from tests.scenes.staged import in_image, stage, thing
 from tests.scenes.test_short_prompts import report
+
+from texvent_scenes.models.places import PLACES
 
 
 @pytest.mark.parametrize(
@@ -45,3 +48,9 @@ def test_lamps_of_ceilings_hang_from_nothing_in_the_open(place):
 
 def test_who_passes_before_a_large_thing_covers_it():
     assert "occludes" in report("a person occludes a car").shown
+
+
+@for_every(name for name, one in PLACES.items() if one.is_room and name != "indoor")
+def test_a_camera_that_goes_through_a_room_sees_what_stands_in_it(name):
+    for how in ("walking", "flying"):
+        assert not report(f"{how} through a {name}").not_shown

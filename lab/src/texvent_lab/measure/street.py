@@ -58,6 +58,15 @@ class Row:
     """Median time between the events of such a run."""
 
 
+def soon_share(events: EventStream) -> float:
+    """Share of the events that come within `SOON_US` of their pixel's last."""
+    pixel = events.y.astype(np.int64) * events.size.width + events.x
+    order = np.lexsort((events.t, pixel))
+    is_next = np.diff(pixel[order]) == 0
+    soon = np.count_nonzero(is_next & (np.diff(events.t[order].astype(np.int64)) < SOON_US))
+    return soon / max(len(order), 1)
+
+
 def measure(
     name: str, events: EventStream, speed_px_s: float | None = None, length_px: float | None = None
 ) -> Row:
@@ -69,9 +78,8 @@ def measure(
     gaps = np.diff(t)
     is_run = is_next & (gaps < GAP_US) & (p[1:] == p[:-1])
     lengths = np.diff(np.flatnonzero(np.concatenate([[True], ~is_run, [True]])))
-    soon = np.count_nonzero(is_next & (gaps < SOON_US)) / max(len(t), 1)
     return Row(
-        name, speed_px_s, length_px, len(t), soon,
+        name, speed_px_s, length_px, len(t), soon_share(events),
         float(np.sum(lengths**2) / max(len(t), 1)),
         float(np.median(gaps[is_run])) / 1000 if is_run.any() else float("nan"),
     )  # fmt: skip

@@ -350,7 +350,7 @@ def _keep_in_room(path: CameraTrack, shooting: _Shooting, travel: TravelPlan | N
         middle = [0.5 * path.duration_s]
         corners = corners_over(actors, middle) if actors else np.zeros((1, 3))
         reach = float(np.abs(corners[:, :2]).max())
-        path = replace(path, room_m=max(0.5 * travel.length_m + 3.5, reach + 0.8))
+        path = replace(path, room_m=max(0.5 * travel.length_m + 3.5, reach + 0.8, 6.5))
         return _keep_in_corridor(path, shooting)
     near = [one for one in actors if objects[one.object_index].placement != "far"]
     corners = corners_over(near or actors, shooting.times) if actors else np.zeros((1, 3))

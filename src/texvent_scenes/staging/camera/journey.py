@@ -54,6 +54,8 @@ _BY_GROUND = {
 """Usual means of travel on a ground; elsewhere one walks."""
 _LOW_M, _AERIAL_M, _AERIAL_PITCH, _TOP_PITCH = 0.5, 16.0, 0.5, 1.4
 """Heights and pitches of low, aerial and top views."""
+_INDOORS_M, _SLOPE = 2.6, 0.27
+"""Greatest height in a room, and pitch of a view from the air there."""
 
 
 @dataclass(frozen=True)
@@ -94,6 +96,8 @@ def plan_travel(description: SceneDescription, place: str, duration_s: float) ->
     if is_aerial:
         height, pitch = max(height, _AERIAL_M), _TOP_PITCH if view == "top" else _AERIAL_PITCH
     height = min(height, _LOW_M) if view == "low" else height
+    if PLACES[place].is_room:
+        height, pitch = min(height, _INDOORS_M), pitch if view == "top" else min(pitch, _SLOPE)
     road_half = PLACES[place].road_m if PLACES[place].has_road else 0.0
     is_on_pavement = ground is Ground.CITY and not is_aerial and means.speed_m_s < _ON_FOOT_M_S
     lane = 0.5 * road_half if means.is_on_road else road_half + 1.0 if is_on_pavement else 0.0

@@ -37,8 +37,9 @@ _NEAR_CITY_M, _MOST_CITY = 30.0, 6.0
 """Distance of the camera from which on more buildings stand in its view, and how many times so."""
 _ATTEMPTS = 40
 """Places tried for each piece before it is left out."""
-_SPACING_M, _ASIDE_M = 12.0, (0.8, 9.0)
-"""Along a route: usually from one to the next, and least and most from the free strip."""
+_SPACING_M, _INDOORS_M, _ASIDE_M = 12.0, 3.0, (0.8, 9.0)
+"""Along a route: usually from one to the next, the same in a room, and least and most from the
+free strip."""
 _ASPECT, _STEEP_RAD = 0.75, 0.25
 """Height over width of an image; angle below the horizon of its upper edge from which on it shows
 the ground around the subject only."""
@@ -127,7 +128,8 @@ def scatter(
     work = _Scatterer(view, actors, nouns, rng)
     beside: list[Scenery] = []
     if view.travel is not None:
-        beside = [rule for rule in rules if rule.where != "far" and not rule.is_structure]
+        apart = ("far", "walls")
+        beside = [rule for rule in rules if rule.where not in apart and not rule.is_structure]
         work.line_route(beside, view.travel)
     for rule in rules:
         if rule.where == "under":
@@ -197,9 +199,9 @@ class _Scatterer:
     def line_route(self, rules: Sequence[Scenery], travel: TravelPlan) -> None:
         """Pieces on both sides of a route, from behind its beginning to beyond its end."""
         length = travel.length_m + VIEW_M + _BEFORE_M
+        usual_m = _SPACING_M if math.isinf(self._view.room_m) else _INDOORS_M
         spacing = {
-            rule: float(trait_value("spacing along a road", rule.noun) or _SPACING_M)
-            for rule in rules
+            rule: float(trait_value("spacing along a road", rule.noun) or usual_m) for rule in rules
         }
         stretch = max(1.0, sum(2.0 * length / one for one in spacing.values()) / _MOST_ITEMS)
         for rule, side in itertools.product(spacing, (1.0, -1.0)):
@@ -219,6 +221,7 @@ class _Scatterer:
         is_at_kerb = rule.where == "kerb"
         across = model.width if is_at_kerb else max(model.length, model.width)
         aside = travel.clear(side) + 0.5 * across
+        far = min(far, max(near, self._view.room_m - aside - 0.5 * across))
         aside += near + (far - near) * float(self._rng.uniform()) ** 2
         height = 0.0
         if self._nouns[rule.noun].habitat == "air":
