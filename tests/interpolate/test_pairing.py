@@ -137,6 +137,14 @@ def test_jumps_are_smeared_only_if_asked(flashing):
     assert len(run(flashing, options)) > 7
 
 
+@pytest.mark.parametrize("name", sorted(set(INTERPOLATORS.builtin) - {"rife", "motion"}))
+def test_what_mixes_no_frames_looks_for_no_jumps(name, flashing):
+    """A rendered flash is drawn at every instant; only what would smear a jump holds it."""
+    video = Beating(flashing.pixels[:3], flashing.times_us[:3])
+    found = {pair.change for pair in pairs_of(video, InterpolateConfig(interpolate=name))}
+    assert (found != {SceneChange.NONE}) == (name not in ("none", "exact"))
+
+
 def test_at_most_two_source_frames_are_held():
     alive = weakref.WeakSet()
     most = 0

@@ -7,7 +7,7 @@ import pytest
 
 from texvent.errors import TexventError
 from texvent.generation.video_models.config import GeneratedVideoConfig
-from texvent.generation.videos.retries import generate_checked, nth_seed
+from texvent.generation.videos.retries import RETRIES, generate_checked, nth_seed
 from texvent.generation.videos.stored_video import write_video
 
 from ..watcher import Watcher
@@ -51,6 +51,24 @@ def test_retrying_takes_the_first_seed_that_passes(make):
     assert video.metadata["seed"] == nth_seed(0, 2)
     assert video.metadata["check"]["problems"] == []
     assert len(told.lines) == 2
+
+
+def test_the_last_of_the_further_seeds_may_pass_and_no_more_are_tried(make):
+    config = GeneratedVideoConfig(on_failure="retry")
+    seeds = [nth_seed(0, one) for one in range(RETRIES + 1)]
+    for last, is_fine in ((seeds[-1], True), (None, False)):
+        make.asked.clear()
+
+        def fault(video, last=last):
+            return None if video.metadata["seed"] == last else "a fault"
+
+        if is_fine:
+            video = generate_checked(make, config, seed=0, progress=None, find_fault=fault)
+            assert video.metadata["seed"] == last
+        else:
+            with pytest.raises(TexventError, match=f"all {RETRIES + 1} videos"):
+                generate_checked(make, config, seed=0, progress=None, find_fault=fault)
+        assert make.asked == seeds
 
 
 def test_rejecting_warning_and_ignoring(make):

@@ -41,6 +41,21 @@ def test_each_pixel_fires_at_its_own_threshold(path, end, counts):
     )
 
 
+@pytest.mark.parametrize("ratio", [0.5, 1.0, 2.0])
+def test_shares_of_a_map_are_of_the_mean_of_their_own_polarity(path, ratio):
+    def of(**options):
+        simulator = PhysicalSimulator(PhysicalConfig(on_off_ratio=ratio, **options))
+        simulator.step(Frame(np.zeros((1, 4)), 0))
+        return simulator._pixels._sensor.mismatch
+
+    plain, mapped = of(threshold_sigma=0.0), of(threshold_map=path)
+    for side, shares in (("threshold_on", [0.5, 1, 2]), ("threshold_off", [None, 2, 1, 0.5])):
+        means, found = getattr(plain, side), getattr(mapped, side)
+        for x, share in enumerate(shares):
+            if share is not None:
+                assert found[x] == pytest.approx(share * means[x], rel=1e-3)
+
+
 def test_pixels_that_were_not_measured_keep_what_is_drawn(path):
     def thresholds(**options):
         simulator = PhysicalSimulator(PhysicalConfig(sensor_seed=3, **options))
