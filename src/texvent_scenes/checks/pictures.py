@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 
 from texvent.sensor import SensorSize
-from texvent_scenes.checks.places import find_unseen_place
+from texvent_scenes.checks.places import find_unseen_place, share_of_walls
 from texvent_scenes.checks.relations import Violation
 from texvent_scenes.defaults import NO_PLACE
 from texvent_scenes.description import STANDING, SceneDescription
 from texvent_scenes.models.effects import LAMPS
-from texvent_scenes.models.places import PLACES, PlaceModel
+from texvent_scenes.models.places import PLACES, PlaceModel, list_telling
 from texvent_scenes.models.protocol import Pose
 from texvent_scenes.raycast.render import render
 from texvent_scenes.rendered_scene import Float64Array, Ground, RenderedScene, Texture
@@ -31,16 +31,21 @@ from texvent_scenes.staging.tracks.phases import PATH_KINDS
 _SIZE, _LEAST_LEVELS, _WHITE, _LEAST_SHARE = SensorSize(120, 90), 6.0, 30.0, 0.002
 """Size of small pictures; difference of a pixel, of 255, that is seen, and that makes snow white;
 share of those that are."""
-_LEAST_SKY, _LEAST_SCENERY, _STIRS = 0.02, 0.02, 0.0004
-"""Least shares of a small picture that clouds change, the scenery of a place, and what moves."""
+_LEAST_SKY, _LEAST_SCENERY, _LEAST_TELLING, _STIRS = 0.02, 0.02, 0.006, 0.0004
+"""Least shares of a small picture that clouds change, the scenery of a place, furniture of which
+half at least is inside and that few rooms have, and what moves."""
+_FULL = 0.16
+"""Share of a small picture in which furniture tells that is cut off: shelves, and not feet."""
+_ANY_ROOM = "indoor"
+"""Place that bare walls tell."""
 _LEAST_CLIP_S = 1.0
 """Length of a clip, s, in which motions get so far that they are judged."""
 _FLOORS = (Texture.CONCRETE, Texture.PAVING, Texture.ASPHALT)
 """Grounds that many places have: only their scenery shows which one it is."""
 _LEAST_HUE = 0.4
 """Difference of a channel, of the greatest, from which on two grounds are of different colours."""
-_WALLS = (Texture.PLASTER, Texture.CONCRETE)
-"""Walls that many rooms have."""
+_TELLING_WALLS, _LEAST_WALLS = (Texture.STONE,), 0.03
+"""Walls that tell a room, as those of a cave; share of a picture that shows them."""
 _TURNS = ("spin", "work", "rotate")
 """Motions that only a picture tells."""
 _CARRIED = ("stand", "orbit")
@@ -117,15 +122,14 @@ def find_unshown(
             yield Violation("is_lit", "", f"lights of the {one.noun}")
     yield from _find_rest(scene, description, drawn)
     yield from _find_unturned(scene, description, times)
-    alike = (one for one in PLACES.values() if one.ground is place.ground)
-    first = next(one for one in alike if one.surface is place.surface)
-    is_common = place.surface in _FLOORS or place.ground is Ground.CITY
-    is_common |= place is not first and not _has_own_colour(place, first)
-    is_shared = place.walls in _WALLS if place.is_room else is_common
     is_said = not any(one.startswith(NO_PLACE) for one in description.notes)
     other = replace(scene, still=assemble([]))
-    is_bare = is_said and not drawn.differ(other, least=_LEAST_SCENERY)
-    if is_bare and is_shared and place.scenery and not (said.is_empty and place.is_cleared):
+    least = _LEAST_TELLING if place.is_room else _LEAST_SCENERY
+    is_bare = is_said and not drawn.differ(other, least=least)
+    if is_said and place.is_room and not _is_told(scene, said.name or "", times):
+        is_bare = not drawn.differ(other, least=_FULL)
+    is_emptied = said.is_empty and place.is_cleared
+    if is_bare and place.scenery and not is_emptied and _is_shared(scene, times):
         bare = "bare walls and the floor are" if place.is_room else "the ground is"
         line = f"{said.name}, of which only {bare} in view"
         yield Violation("place", said.name or "", line)
@@ -150,6 +154,27 @@ def _find_unturned(
         if not SmallPictures(alone, times).change():
             line = f"the {one.noun}'s turning: it looks the same from all sides"
             yield Violation("motion", kind, line)
+
+
+def _is_told(scene: ComposedScene, place: str, times: Sequence[float]) -> bool:
+    """Whether furniture is in the image by which one tells a room."""
+    own = [one for one in scene.scenery if one.rule.noun in list_telling(place)]
+    own_camera = [scene.camera(time_s) for time_s in times]
+    shares = [sum(one.share_of(camera) for one in own) for camera in own_camera]
+    return max(shares) >= _LEAST_TELLING
+
+
+def _is_shared(scene: ComposedScene, times: Sequence[float]) -> bool:
+    """Whether a place without its scenery looks like others: as grass, or as an empty room."""
+    place = scene.place
+    if place.is_room:
+        is_telling = place.walls in _TELLING_WALLS or place.corridor_m > 0.0
+        is_telling |= scene.place is PLACES[_ANY_ROOM]
+        return not (is_telling and max(share_of_walls(scene, at) for at in times) >= _LEAST_WALLS)
+    alike = (one for one in PLACES.values() if one.ground is place.ground)
+    first = next(one for one in alike if one.surface is place.surface)
+    is_common = place.surface in _FLOORS or place.ground is Ground.CITY
+    return is_common or (place is not first and not _has_own_colour(place, first))
 
 
 def _has_own_colour(place: PlaceModel, usual: PlaceModel) -> bool:

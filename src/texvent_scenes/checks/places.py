@@ -132,6 +132,14 @@ def _share_of_ground(scene: ComposedScene, time_s: float, camera: PosedCamera) -
     return _find_ground(scene, time_s, camera)[1]
 
 
+def share_of_walls(scene: ComposedScene, time_s: float) -> float:
+    """Share of an image that shows neither a body nor the floor: of an empty room, its walls."""
+    x, y = np.meshgrid(np.arange(_SIZE.width) + 0.5, np.arange(_SIZE.height) + 0.5)
+    _, instance = visible_instances(scene, time_s, _SIZE, np.stack([x, y], axis=-1).reshape(-1, 2))
+    camera = scene.camera(time_s)
+    return float(np.mean(instance == 0)) - _share_of_ground(scene, time_s, camera)
+
+
 def _find_ground(
     scene: ComposedScene, time_s: float, camera: PosedCamera
 ) -> tuple[Float64Array, float]:

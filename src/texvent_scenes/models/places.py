@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
@@ -112,6 +113,21 @@ def _place_of(fields: dict[str, Any]) -> PlaceModel:
 PLACES: Mapping[str, PlaceModel] = MappingProxyType(
     {name: _place_of(row) for name, row in frozen(read_table("places")).items()}
 )
+
+
+_MOST_ROOMS = 5
+"""Rooms that a piece of furniture may stand in which tells one of them: a chair stands in more."""
+
+
+def list_telling(place: str) -> frozenset[str]:
+    """Nouns of the scenery by which one tells a room: those that few rooms have."""
+    rooms = Counter(
+        noun for one in PLACES.values() if one.is_room
+        for noun in {each.noun for each in one.scenery}
+    )  # fmt: skip
+    own = {one.noun: rooms[one.noun] for one in PLACES[place].scenery}
+    most = max(_MOST_ROOMS, min(own.values(), default=0))
+    return frozenset(noun for noun, count in own.items() if count <= most)
 
 
 def is_room(place: str) -> bool:

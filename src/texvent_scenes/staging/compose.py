@@ -15,13 +15,14 @@ from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.materials import Material
 from texvent_scenes.models.nouns import AFLOAT, NOUNS
-from texvent_scenes.models.places import PLACES, PlaceModel
+from texvent_scenes.models.places import PLACES, PlaceModel, list_telling
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.shapes import rod
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.rendered_scene import MEDIUM_RECORD, Environment, Ground, Primitives
 from texvent_scenes.spec.scene import CameraMove, Motion
 from texvent_scenes.staging.actors import Actor, PlacedModel, assemble, join_primitives, seeded
+from texvent_scenes.staging.camera.angles import is_said_room
 from texvent_scenes.staging.camera.camera_placement import place_camera
 from texvent_scenes.staging.camera.camera_track import CameraTrack
 from texvent_scenes.staging.camera.journey import plan_travel
@@ -80,6 +81,8 @@ class ComposedScene:
     """Decisions that the scene leaves open, as sentences, such as where the roads cross."""
     missing: frozenset[int] = frozenset()
     """Objects that are not held and have no place."""
+    scenery: tuple[SceneryItem, ...] = ()
+    """The pieces of which `still` is made."""
     has_highlights: bool = False
     """Whether light above white is kept; see `rendered_scene.Environment`."""
 
@@ -169,7 +172,7 @@ def compose_scene(
         (*dict.fromkeys(placer.notes), *(
             f"the roads cross at ({x:.3g}, {y:.3g}) m"
             for x, y, _ in (view.road.crossings if ground.has_road else ())
-        )), placer.orphans,
+        )), placer.orphans, tuple(items),
     )  # fmt: skip
 
 
@@ -257,7 +260,9 @@ def _scatter_all(
         far = [rule for rule in own if rule.where == "far"]
         # What stands before the mountains on land would stand in the sea.
         rules.extend(far if far and PLACES[place].ground is Ground.SEA else own)
-    return scatter(rules, view, actors, unsaid, rng=seeded(seed, "scenery", place))
+    telling = list_telling(place) if is_said_room(description, place) else ()
+    rng = seeded(seed, "scenery", place)
+    return scatter(rules, view, actors, unsaid, rng=rng, telling=telling)
 
 
 def kind_of(noun: Noun) -> str:

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from texvent_scenes.defaults import NO_PLACE
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.places import PLACES, is_room
 from texvent_scenes.models.tables import nouns_with, trait_value
@@ -14,9 +15,9 @@ from texvent_scenes.staging.actors import Actor, seeded
 ELEVATIONS = {"aerial": 0.80, "top": 1.45, "low": -0.25, "first person": 0.05}
 """View → elevation of the camera, rad; a low one ends at the ground."""
 _PLACE_ELEVATIONS = {"sky": -0.42, "space": -0.1, "underwater": 0.04}
-_ROOM_ELEVATION, _INTO_IT, _ONTO_STRIP, _ONTO_FLAT = 0.24, 0.6, 0.16, 0.5
-"""Elevation in rooms, from which one sees into an open container, a runway as a strip, and what
-lies flat, rad."""
+_ROOM_ELEVATION, _INTO_IT, _ONTO_STRIP, _ONTO_FLAT, _FLAT_IN_ROOM = 0.24, 0.6, 0.16, 0.5, 0.3
+"""Elevation in rooms, from which one sees into an open container, a runway as a strip, what lies
+flat, and that with a wall of the room that is said, rad."""
 _FLAT, _MOST_FLAT_M = 0.2, 1.0
 """Height over length, and length in m, up to which what rests lies flat: a pencil."""
 _ELONGATED, _LEAST_M, ALONG_IT = 4.5, 3.0, 0.75
@@ -27,6 +28,11 @@ def goes_in_depth(actor: Actor) -> bool:
     """Whether it goes away from the camera or towards it, rather than across the picture."""
     step = np.subtract(actor.track.at(0.5).position, actor.track.at(0.0).position)
     return bool(abs(step[1]) > 1.2 * abs(step[0]) and abs(step[1]) > 0.05)
+
+
+def is_said_room(description: SceneDescription, place: str) -> bool:
+    """Whether the place is a room that is said, of which a wall should be in view."""
+    return is_room(place) and not any(one.startswith(NO_PLACE) for one in description.notes)
 
 
 def is_in_container(description: SceneDescription, index: int) -> bool:
@@ -73,6 +79,8 @@ def choose_angles(
     elevation = ELEVATIONS.get(description.camera.view or "")
     if elevation is None:
         elevation = _choose_elevation(main, place, is_in_depth)
+        if is_said_room(description, place):
+            elevation = min(elevation, _FLAT_IN_ROOM)
         if is_in_container(description, main.object_index):
             elevation = max(elevation, _INTO_IT)
     return azimuth, elevation

@@ -14,7 +14,13 @@ from texvent_scenes.models.tables import trait_value
 from texvent_scenes.rendered_scene import Float64Array, Ground
 from texvent_scenes.spec.scene import CameraMove
 from texvent_scenes.staging.actors import Actor, corners_over
-from texvent_scenes.staging.camera.angles import ALONG_IT, ELEVATIONS, choose_angles, goes_in_depth
+from texvent_scenes.staging.camera.angles import (
+    ALONG_IT,
+    ELEVATIONS,
+    choose_angles,
+    goes_in_depth,
+    is_said_room,
+)
 from texvent_scenes.staging.camera.camera_track import (
     CameraTrack,
     Tie,
@@ -36,6 +42,9 @@ from texvent_scenes.staging.placement.zones import zone_of
 
 _SKY_LIFT = 0.2
 """Height of the optical axis above what matters outdoors, in half image heights."""
+_WALL_LIFT, _LOW_M, _STEEP = 0.5, 0.5, 0.4
+"""Height above what matters in a room that is said, whose wall must be in view; height of a subject
+up to which that would be out of it, m; elevation up to which it may be in view, rad."""
 _NEAR_LENGTHS = 0.3
 """Lengths of its own from which on an object is followed in a close or medium shot."""
 _STATIC, _ALONG, _LEAST_ALONG, _FOLLOWED, _LEAST_GAIN = 0.33, 0.65, 0.13, 0.25, 1.1
@@ -272,6 +281,12 @@ def _watch(shooting: _Shooting, main: Actor) -> tuple[CameraTrack, float]:
     azimuth, elevation = choose_angles(description, main, place, shooting.seed)
     is_open = shooting.path.has_floor and not is_room(place)
     lift = _SKY_LIFT if is_open and abs(elevation) < 0.3 else 0.0
+    if (
+        is_said_room(description, place)
+        and 0.0 < elevation <= _STEEP
+        and main.model.height < _LOW_M
+    ):
+        lift = _WALL_LIFT
     copies = [actor for actor in actors if actor.object_index == main.object_index]
     boxes = [np.array([one.corners(float(time)) for one in copies]) for time in times]
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections import defaultdict
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -20,6 +20,7 @@ from texvent_scenes.models.protocol import Model, Noun, Pose
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor, PlacedModel
+from texvent_scenes.staging.camera.framing import image_of
 from texvent_scenes.staging.camera.journey import NORTH, VIEW_M, TravelPlan
 from texvent_scenes.staging.surroundings.environment import RoadLine
 from texvent_scenes.staging.tracks.track import BodyState
@@ -45,6 +46,10 @@ _ASPECT, _STEEP_RAD = 0.75, 0.25
 the ground around the subject only."""
 _ALONG_ROAD = 0.35
 """Sine of the angle to the road below which a camera looks along it."""
+_WALL_SHARES = (-0.1, 0.1, -0.3, 0.3)
+"""Places of furniture that would be out of the image, in widths from its middle."""
+_SIDES = np.array([[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]])
+"""Corners of a box seen from above, in half extents."""
 _LEAST_STEPS, _FINER = 4, 25
 """Instants of an object's way that must be free, and how many times as many at most."""
 _BEFORE_M, _MOST_ITEMS = 4.0, 90
@@ -95,6 +100,19 @@ class SceneryItem:
         """Radius of the ground it stands on."""
         return 0.5 * max(self.model.length, self.model.width)
 
+    def share_of(self, camera: PosedCamera) -> float:
+        """Share of the image that its box takes; 0 where less than half of that is inside."""
+        half = np.array([0.5 * self.model.length, 0.5 * self.model.width])
+        cosine, sine = math.cos(self.yaw), math.sin(self.yaw)
+        feet = _SIDES * half @ np.array([[cosine, sine], [-sine, cosine]]) + self.position
+        box = [[*foot, self.height_m + z] for foot in feet for z in (0.0, self.model.height)]
+        seen = image_of(camera, np.array(box))
+        if seen[:, 2].min() <= 0.0:
+            return 0.0
+        ends = np.array([seen[:, :2].min(axis=0), seen[:, :2].max(axis=0)]) / [1.0, _ASPECT]
+        inside = float(np.prod(np.diff(np.clip(ends, -0.5, 0.5), axis=0)))
+        return inside if inside >= 0.5 * float(np.prod(np.diff(ends, axis=0))) else 0.0
+
     def place(self) -> PlacedModel:
         """Its parts in the world."""
         state = BodyState((*self.position, self.height_m), self.yaw, activity="stand")
@@ -111,6 +129,7 @@ def scatter(
     nouns: Mapping[str, Noun],
     *,
     rng: np.random.Generator,
+    telling: Collection[str] = (),
 ) -> list[SceneryItem]:
     """Scatter scenery where the camera sees it and it hides and blocks nothing.
 
@@ -120,6 +139,7 @@ def scatter(
         actors: the objects of the scene.
         nouns: table of models; a noun that is missing is left out.
         rng: decides places, sizes and turns.
+        telling: nouns of which one should be in the image.
 
     Returns:
         The pieces that found a place; fewer than wanted where it is crowded.
@@ -136,6 +156,8 @@ def scatter(
             work.lay_under(rule)
         elif rule.where != "route" and rule not in beside:
             work.stand_in_view(rule)
+    if view.travel is None and telling:
+        work.fill_view([one for one in rules if one.noun in telling and not one.is_structure])
     return work.items
 
 
@@ -228,6 +250,32 @@ class _Scatterer:
             height = travel.journey.height_m + float(self._rng.uniform(-5.0, 4.0))
         yaw = self._turn(rule, NORTH if is_at_kerb else NORTH + side * 0.5 * math.pi)
         return SceneryItem(rule, model, travel.point(along_m, side * aside), yaw, height)
+
+    def fill_view(self, rules: Sequence[Scenery]) -> None:
+        """Pieces at the wall that the image shows, if none of these is in it yet."""
+        camera = self._view.cameras[len(self._view.cameras) // 2]
+        nouns = {rule.noun for rule in rules}
+        if any(one.rule.noun in nouns and one.share_of(camera) for one in self.items):
+            return
+        forward, right = _axes(camera)
+        for rule, share in itertools.product(rules, _WALL_SHARES):
+            way = forward + share / camera.focal * right
+            item = self._stand_before(rule, self._build(rule, 0), way)
+            if item.share_of(camera) and self._is_free(item):
+                self.items.append(item)
+
+    def _stand_before(self, rule: Scenery, model: Model, way: Float64Array) -> SceneryItem:
+        """At the wall that a ray [2] from the camera meets, with its back to it."""
+        room = self._view.room_m
+        start = self._view.cameras[len(self._view.cameras) // 2].position[:2]
+        with np.errstate(divide="ignore"):
+            reach = np.where(way > 0.0, room - start, -room - start) / way
+        axis = int(np.argmin(np.where(np.isfinite(reach), reach, np.inf)))
+        side = 1.0 if way[axis] >= 0.0 else -1.0
+        spot = start + float(reach[axis]) * way
+        spot[axis] = side * (room - 0.5 * model.length - 0.04)
+        yaw = math.pi * (0.5 * axis + (1.0 if side > 0.0 else 0.0))
+        return SceneryItem(rule, model, (float(spot[0]), float(spot[1])), yaw)
 
     def _turn(self, rule: Scenery, along_road: float) -> float:
         """Heading of a piece: along the road, or any."""

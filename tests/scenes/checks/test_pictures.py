@@ -1,0 +1,46 @@
+"""Places and effects that a small picture shows, and those that the report names as not shown."""
+
+from dataclasses import replace
+
+from tests.scenes.every_row import for_every
+from tests.scenes.staged import DURATION_S, SIZE
+
+from texvent_scenes.checks.pictures import find_unshown
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.models.places import PLACES
+from texvent_scenes.scene_input import understand
+from texvent_scenes.staging.actors import assemble
+from texvent_scenes.staging.compose import compose_scene
+
+TIMES_S = [0.2 * DURATION_S, 0.8 * DURATION_S]
+ROOMS = [name for name, one in PLACES.items() if one.is_room and one.scenery]
+TELLING = ("indoor", "corridor", "cave", "throne room")
+"""Rooms that bare walls tell."""
+
+
+def staged(text):
+    said = understand(text, NOUNS)
+    return said, compose_scene(said, seed=0, size=SIZE, duration_s=DURATION_S)
+
+
+def lost(said, scene):
+    return [one.kind for one in find_unshown(scene, said, TIMES_S)]
+
+
+@for_every(ROOMS)
+def test_a_room_is_shown_with_its_furniture_and_not_by_bare_walls(room):
+    said, scene = staged(f"a man stands in a {PLACES[room].names[0]}")
+    assert said.place.name == room
+    assert "place" not in lost(said, scene)
+    if room not in TELLING:
+        assert "place" in lost(said, replace(scene, still=assemble([]), scenery=()))
+
+
+BARE = ("bedroom", "factory")
+"""Rooms whose furniture is too large for a picture of a cat: the report says so."""
+
+
+@for_every([one for one in ROOMS if one not in BARE])
+def test_a_camera_near_a_small_thing_sees_what_stands_at_the_wall_of_a_room_that_is_said(room):
+    said, scene = staged(f"close-up of a cat in a {PLACES[room].names[0]}")
+    assert "place" not in lost(said, scene)
