@@ -16,7 +16,7 @@ from texvent_scenes.checks.places import find_unseen_place, share_of_walls
 from texvent_scenes.checks.relations import Violation
 from texvent_scenes.defaults import NO_PLACE
 from texvent_scenes.description import STANDING, SceneDescription
-from texvent_scenes.models.effects import LAMPS
+from texvent_scenes.models.effects import EFFECTS, LAMPS
 from texvent_scenes.models.places import PLACES, PlaceModel, list_telling
 from texvent_scenes.models.protocol import Pose
 from texvent_scenes.raycast.render import render
@@ -31,9 +31,14 @@ from texvent_scenes.staging.tracks.phases import PATH_KINDS
 _SIZE, _LEAST_LEVELS, _WHITE, _LEAST_SHARE = SensorSize(120, 90), 6.0, 30.0, 0.002
 """Size of small pictures; difference of a pixel, of 255, that is seen, and that makes snow white;
 share of those that are."""
-_LEAST_SKY, _LEAST_SCENERY, _LEAST_TELLING, _STIRS = 0.02, 0.02, 0.006, 0.0004
-"""Least shares of a small picture that clouds change, the scenery of a place, furniture of which
-half at least is inside and that few rooms have, and what moves."""
+_SEEN = {"has_snow": (_WHITE, _LEAST_SHARE), "clouds": (_LEAST_LEVELS, 0.02),
+         "soft": (25.0, 0.006)}  # fmt: skip
+"""Kind → least difference and share that show it, if others than usual: of clouds no panes that
+mirror them, of what is soft, as dust, no trace."""
+_EMITTERS = {kind: one.emitters for kind, one in EFFECTS.items()}
+_LEAST_SCENERY, _LEAST_TELLING, _STIRS = 0.02, 0.006, 0.0004
+"""Least shares of a small picture that the scenery of a place changes, furniture of which half at
+least is inside and that few rooms have, and what moves."""
 _FULL = 0.16
 """Share of a small picture in which furniture tells that is cut off: shelves, and not feet."""
 _ANY_ROOM = "indoor"
@@ -110,8 +115,8 @@ def find_unshown(
     """Words of light, sky, ground, weather, effects, rotation and a place that leave no trace."""
     place, said, drawn = scene.place, description.place, SmallPictures(scene, times)
     for name, value, other in _list_without(scene, description):
-        levels = _WHITE if name == "has_snow" else _LEAST_LEVELS
-        least = _LEAST_SKY if name == "clouds" else _LEAST_SHARE  # no panes that mirror them
+        is_soft = any(one.body == "medium" for one in _EMITTERS.get(str(value), ()))
+        levels, least = _SEEN.get("soft" if is_soft else name, (_LEAST_LEVELS, _LEAST_SHARE))
         if not drawn.differ(other, least=least, levels=levels):
             is_kind = name in ("light", "weather", "effect")
             line = name.split("_")[-1] if value is True else f"{name} {value}"

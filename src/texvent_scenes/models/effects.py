@@ -86,6 +86,8 @@ class EffectWords:
     """Base forms said of the object it comes from, such as "smoke": "a chimney smokes"."""
     size: float = 1.0
     """Its size by that of the object it comes from."""
+    rise: float = 0.0
+    """How far above its object it must be in the image, by the mean size of that."""
     alone: Vector = (0.15, 0.0, 0.0)
     """Its size without an object, its height above what the camera looks at (0 = on the ground)
     and its distance behind that; by the distance of the camera."""

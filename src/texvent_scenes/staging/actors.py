@@ -100,6 +100,11 @@ class Actor:
     """Corners at instants that were asked for: framing asks for the same ones six times."""
 
     @property
+    def mean_size_m(self) -> float:
+        """Side of a cube as large as its box, m."""
+        return float(np.cbrt(self.model.length * self.model.width * self.model.height))
+
+    @property
     def size_m(self) -> float:
         """Its largest extent, m."""
         return max(self.model.length, self.model.width, self.model.height)

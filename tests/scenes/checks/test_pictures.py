@@ -2,13 +2,17 @@
 
 from dataclasses import replace
 
+import pytest
 from tests.scenes.every_row import for_every
 from tests.scenes.staged import DURATION_S, SIZE
 
 from texvent_scenes.checks.pictures import find_unshown
+from texvent_scenes.description import SceneDescription
+from texvent_scenes.models.effects import EFFECTS
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.places import PLACES
 from texvent_scenes.scene_input import understand
+from texvent_scenes.spec.scene import Effect, Place
 from texvent_scenes.staging.actors import assemble
 from texvent_scenes.staging.compose import compose_scene
 
@@ -44,3 +48,26 @@ BARE = ("bedroom", "factory")
 def test_a_camera_near_a_small_thing_sees_what_stands_at_the_wall_of_a_room_that_is_said(room):
     said, scene = staged(f"close-up of a cat in a {PLACES[room].names[0]}")
     assert "place" not in lost(said, scene)
+
+
+@for_every([name for name, one in EFFECTS.items() if one.nouns])
+def test_an_effect_by_itself_is_seen(kind):
+    said = SceneDescription(effects=(Effect(kind),), place=Place("grass", is_empty=True))
+    scene = compose_scene(said, seed=0, size=SIZE, duration_s=DURATION_S)
+    assert "effect" not in lost(said, scene)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["steam rises from a pot on a table", "smoke rises from a chimney", "a kettle steams",
+     "a truck drives along a dirt road and kicks up dust", "a man walks in the rain"],
+)  # fmt: skip
+def test_soft_things_are_in_view_and_seen_and_faint_ones_are_named(text):
+    said, scene = staged(text)
+    assert not {"effect", "weather"} & {*lost(said, scene)}
+    faint = tuple(
+        replace(one, style=replace(one.style, thickness=(0.02, 0.0)))
+        for one in scene.particles.effects
+    )
+    scene = replace(scene, particles=replace(scene.particles, effects=faint))
+    assert {"effect", "weather"} & {*lost(said, scene)}

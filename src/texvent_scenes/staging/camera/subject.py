@@ -12,6 +12,7 @@ import numpy as np
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.anchors import has_rim
+from texvent_scenes.models.effects import EFFECTS
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor
@@ -103,6 +104,8 @@ class _Scope(NamedTuple):
     """Reach of the piece of a larger thing, in its own sizes."""
     sided: Collection[int] = ()
     """Objects between which something is: of what is tall, the lower part from side to side."""
+    rises: Mapping[int, float] = MappingProxyType({})
+    """Objects from which steam or smoke rises → how far it must be seen, in their mean sizes."""
 
 
 def list_framing_choices(
@@ -117,7 +120,9 @@ def list_framing_choices(
     whole = {n for r in relations for n in r.targets if _tells_as_a_whole(r.kind, description, n)}
     sided = {n for r in relations if r.kind in _SIDED for n in r.targets}
     sent = {n: _SENT[r.kind] for r in relations if r.kind in _SENT for n in r.targets}
-    scope = _Scope(main, times, tie, passed, cut, whole, sent, sided=sided)
+    rises = {n: EFFECTS[one.kind].rise for one in description.effects
+             if (n := description.index(one.source)) is not None}  # fmt: skip
+    scope = _Scope(main, times, tie, passed, cut, whole, sent, sided=sided, rises=rises)
     near = [one for one in actors if description.objects[one.object_index].placement != "far"]
     framing = shot.framing
     if framing == "close" or (framing == "medium" and main.noun.name in PERSON_NOUNS):
@@ -249,6 +254,8 @@ def _points_of(actors: Sequence[Actor], scope: _Scope) -> Float64Array:
                 continue
             is_cut = actor.object_index in scope.cut
             points.append(_upper_part(actor, box, "medium") if is_cut else box)
+            rise_m = scope.rises.get(actor.object_index, 0.0) * actor.mean_size_m
+            points.append(np.add(box, [0.0, 0.0, rise_m]))
     return np.vstack(points)
 
 

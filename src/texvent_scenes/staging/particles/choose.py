@@ -151,9 +151,8 @@ def _source(kind: str, actor: Actor | None, setting: Setting) -> Source:
         target[2] = target[2] + height if height else 0.0
         return Source(float(size), target + behind * setting.away)
     model, noun = actor.model, actor.noun.name
-    bulk = float(np.cbrt(model.length * model.width * model.height))
     known = (trait_value(trait, noun) for trait in words.anchor_traits)
     x, y, z = next((one for one in known if one is not None), words.anchor)
     height = z * model.height - actor.foot_m
     point = np.array([0.5 * x * model.length, 0.5 * y * model.width, height])
-    return Source(words.size * bulk, point, actor)
+    return Source(words.size * actor.mean_size_m, point, actor)
