@@ -13,9 +13,10 @@ from texvent_scenes.description import Claim, Dependence
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, read_table, trait_values
-from texvent_scenes.read.draft import OPPOSITE, SceneDraft, is_grammar
-from texvent_scenes.read.lexicon import deeds, word_set
-from texvent_scenes.read.tokens import NO_TOKEN, Token
+from texvent_scenes.read.draft.copies import OPPOSITE, halve, take_turns
+from texvent_scenes.read.draft.scene_draft import SceneDraft
+from texvent_scenes.read.parsing.lexicon import deeds, word_set
+from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
 from texvent_scenes.spec.data import PLACING, scene_from_data
 from texvent_scenes.spec.scene import MAX_BODIES, Scene, number_nouns
 
@@ -63,7 +64,7 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
     _limit_counts(draft)
     fates: dict[str, str] = {}
     for token, after in zip(draft.tokens, (*draft.tokens[1:], NO_TOKEN), strict=False):
-        is_open = token.is_sign or is_grammar(token)
+        is_open = token.is_sign or token.is_grammar
         is_open |= token.text == "to" and bool(after.verbs("base"))  # "starts to spin"
         is_begun = token.text in word_set("things", "aspects")
         is_open &= not is_begun or after.text == "to" or bool(after.verbs("ing"))
@@ -167,7 +168,7 @@ def _find_opponents(draft: SceneDraft) -> None:
 
 def _list_claims(draft: SceneDraft) -> Iterator[Claim]:
     """Claims of words that are not lost at another place, where nothing is claimed of them."""
-    lost = [one for one in draft.tokens if not draft.shows(one) and not is_grammar(one)]
+    lost = [one for one in draft.tokens if not draft.shows(one) and not one.is_grammar]
     claimed = {at for at, claims in draft.claims.items() if any(one.is_open for one in claims)}
     closed = {one.text for one in lost if one.at not in claimed}
     for at, claims in draft.claims.items():
@@ -314,9 +315,9 @@ def _build(draft: SceneDraft, prompt: str) -> Scene:
         for motion in (each for each in one["motions"] if "end_m_s" in each):
             _reach_speed(motion, draft.nouns[one["noun"]])
         if any([each.pop("in_turn", False) for each in one["motions"]]) and one["count"] > 1:
-            draft.take_turns(index)
+            take_turns(draft, index)
         if any(each.get("direction") == OPPOSITE for each in one["motions"]):
-            draft.halve(index)
+            halve(draft, index)
     _run_belts(draft)
     _give_each(draft)
     ids = number_nouns([one["noun"] for one in draft.things])

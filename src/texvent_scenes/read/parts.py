@@ -6,10 +6,11 @@ from collections.abc import Sequence
 
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.tables import nouns_with, read_table
-from texvent_scenes.read.draft import BLINK_HZ, SceneDraft
-from texvent_scenes.read.groups import Group, Phrase
-from texvent_scenes.read.lexicon import owned_parts, word_set
-from texvent_scenes.read.tokens import Token
+from texvent_scenes.read.draft.motions import BLINK_HZ
+from texvent_scenes.read.draft.scene_draft import SceneDraft
+from texvent_scenes.read.parsing.groups import Group, Phrase
+from texvent_scenes.read.parsing.lexicon import owned_parts, word_set
+from texvent_scenes.read.parsing.tokens import Token
 
 
 def are_own_parts(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from texvent_scenes.models.activities import (
@@ -18,8 +18,8 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.people.outfit import CLOTHES, list_props
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
-from texvent_scenes.read.lexicon import VerbSense, word_set
-from texvent_scenes.read.tokens import Token
+from texvent_scenes.read.parsing.lexicon import VerbSense, word_set
+from texvent_scenes.read.parsing.tokens import Token
 from texvent_scenes.spec.data import ACTED, SENT
 
 MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
@@ -229,3 +229,41 @@ class Abilities:
         """Whether subjects move objects already: what they do then is not shown."""
         said = (one for index in subjects for one in self.things[index]["relations"])
         return any(one["kind"] in ACTED and {*one["to"]} & {*objects} for one in said)
+
+    def has_top(self, index: int) -> bool:
+        """Whether an object stays, so that others may rise, jump or fall from on top of it."""
+        noun = self.things[index]["noun"]
+        is_low = trait_value("climbed", noun) is None and noun not in nouns_with("towering")
+        return self.nouns[noun].habitat in ("fixed", "ground") and is_low
+
+    def list_held(self, owners: Sequence[int]) -> Iterator[int]:
+        """Objects that some hold or wear."""
+        for relation in (one for owner in owners for one in self.things[owner]["relations"]):
+            yield from relation["to"] if relation["kind"] in ("wear", "hold") else ()
+
+    def place_by(self, index: int) -> str:
+        """Relation of those who are where an object is: "a sofa where a girl reads"."""
+        noun = self.things[index]["noun"]
+        if noun in word_set("things", "tables"):
+            return "at"
+        return "on" if noun in nouns_with("seat") | nouns_with("way") else "beside"
+
+    def is_many(self, indices: Sequence[int]) -> bool:
+        """Whether objects are several bodies: "them"."""
+        return sum(int(self.things[index]["count"]) for index in indices) > 1
+
+    def goes_like(self, index: int, other: int) -> bool:
+        """Whether an object goes, and another may go the same way: "drives behind a truck"."""
+        mine, theirs = self.things[index], self.things[other]
+        is_going = bool(mine["motions"]) and mine["motions"][0]["kind"] in (*MEANS, "move")
+        same = self.nouns[mine["noun"]].motion == self.nouns[theirs["noun"]].motion
+        is_led = all(one["kind"] in (*MEANS, "move") for one in theirs["motions"])
+        is_led &= not theirs.get("is_lost")
+        return is_going and same and self.can_go(other) and is_led
+
+    def keeps_to_ground(self, index: int) -> bool:
+        """Whether an object goes on the ground, and does nothing in the air or in water now."""
+        thing = self.things[index]
+        does = {*(one["kind"] for one in thing["motions"]), thing.get("deed")}
+        free = does & word_set("things", "off_ground")
+        return self.nouns[thing["noun"]].motion in ("walk", "drive") and not free
