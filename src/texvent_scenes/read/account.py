@@ -148,18 +148,13 @@ def _find_opponents(draft: SceneDraft) -> None:
             continue
         players, targets = [index], []
         if thing["count"] == 1:
-            same = [{"kind": kind}]
-            draft.things.append({"noun": "person", "motions": same, "count": 1, "relations": []})
-            players.append(len(draft.things) - 1)
+            players.append(draft.add("person", motions=[{"kind": kind}]))
         ball, _ = table[kind]
         for noun in table[kind]:
-            known = [n for n, one in enumerate(draft.things)
-                     if one["noun"] == noun or noun.endswith(one["noun"])]  # fmt: skip
+            known = [n for n, one in enumerate(draft.things) if noun.endswith(one["noun"])]
             for one in known[:1]:
                 draft.things[one] |= {"noun": noun, "motions": []}
-            if not known:
-                draft.things.append({"noun": noun, "motions": [], "count": 1, "relations": []})
-            targets.append(known[0] if known else len(draft.things) - 1)
+            targets.append(known[0] if known else draft.add(noun))
             if noun == ball:  # else it is a speck between two people
                 draft.things[targets[-1]].setdefault("size", _SEEN_SIZE)
         for one in players:
@@ -193,11 +188,9 @@ def _hang_up(draft: SceneDraft) -> None:
     for token in draft.tokens:
         wall, _, rest = token.text.partition(" ")
         named = {one.value.noun for one in token.all("noun")} & hung if rest else set()
-        bare = [n for n, one in enumerate(draft.things)
-                if one["noun"] in named and not one["relations"]]  # fmt: skip
+        bare = [one for one in draft.find(named) if not draft.things[one]["relations"]]
         for index in bare[:1] if wall in walls else ():
-            draft.things.append({"noun": wall, "motions": [], "count": 1, "relations": []})
-            draft.relate(index, "on", [len(draft.things) - 1])
+            draft.relate(index, "on", [draft.add(wall)])
 
 
 def _do_deeds(draft: SceneDraft) -> None:
@@ -205,11 +198,10 @@ def _do_deeds(draft: SceneDraft) -> None:
     for index, one in enumerate(draft.things):
         deed = one.pop("deed", None)
         one.pop("word", None)
-        acts = {each["kind"] for each in one["relations"]} & word_set("things", "doing")
+        acts = draft.acts([index]) & word_set("things", "doing")
         if deed and not (one["motions"] or acts or "is_lost" in one):
             one["motions"].append({"kind": deed})
-        is_done = deed in [each["kind"] for each in one["motions"]]
-        for token in draft.tokens if is_done else ():
+        for token in draft.tokens if deed in draft.does([index]) else ():
             if deeds().get(token.text) == deed:
                 draft.fates[token.at] = "shown"
                 draft.claim(token, "activity", deed, [index])
@@ -217,10 +209,10 @@ def _do_deeds(draft: SceneDraft) -> None:
 
 def _lead_round(draft: SceneDraft) -> None:
     """Have what goes in circles do so on the ring there is: "a roundabout with cars circling"."""
-    rings = [n for n, one in enumerate(draft.things) if one["noun"] in trait_values("circled on")]
+    rings = draft.find(trait_values("circled on").keys())
     for index, one in enumerate(draft.things if rings else ()):
         kinds = [each["kind"] for each in one["motions"]]
-        told = {each["kind"] for each in one["relations"]} & (PLACING | {"around"})
+        told = draft.acts([index]) & (PLACING | {"around"})
         if kinds == ["orbit"] and not told:
             draft.relate(index, "around", rings[:1])
 

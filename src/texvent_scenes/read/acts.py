@@ -39,8 +39,7 @@ def perform(
     for index in objects if act.relation == "hit" else ():
         _choose_ball(draft, subjects, index)
     if act.brings not in ("", EGO) and not objects:
-        draft.things.append({"noun": act.brings, "motions": [], "count": 1, "relations": []})
-        objects = [len(draft.things) - 1]
+        objects = [draft.add(act.brings)]
     if act.end_pace == 0.0 and act.kind == "stand" and can_arrive(draft, subjects):
         act = replace(act, kind="move", is_near=False)  # it goes until it stops
     is_change = act.kind == "stand" or verb.text.endswith(" down")  # is drawn after another
@@ -65,7 +64,7 @@ def _relate_act(
 ) -> None:
     """Relate who acts to what the act is about, on a way that the staged scene holds."""
     who = ridden_by(draft, index, kind)
-    about = {draft.things[one]["noun"] for one in objects}
+    about = draft.names(objects)
     if kind == "follow" and about & nouns_with("runs on"):
         kind = "past"  # "follows a pipe"
     if kind == "lead":
@@ -110,7 +109,7 @@ def _choose_act(
 def _are_sent(draft: SceneDraft, verb: Token, subjects: Sequence[int]) -> bool:
     """Whether balls are struck by who is not said: "a shuttlecock smashed at the camera"."""
     is_struck = any(one.value.relation in SENT for one in verb.verbs("ed"))
-    nouns = {draft.things[one]["noun"] for one in subjects}
+    nouns = draft.names(subjects)
     return is_struck and bool(nouns) and nouns <= trait_values("struck with").keys() | _KICKED
 
 

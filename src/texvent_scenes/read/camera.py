@@ -25,7 +25,7 @@ def go_through(
 ) -> bool:
     """Lead a camera that goes ahead through what has a way through, or out; whether it has one."""
     is_ahead = move["kind"] == "travel" or split_move("dolly in").items() <= move.items()
-    nouns = {draft.things[one]["noun"] for one in targets}
+    nouns = draft.names(targets)
     if move.get("means") == "fly" or not (is_ahead and nouns <= nouns_with("passage")):
         return False
     if move["kind"] == "dolly":
@@ -87,7 +87,7 @@ def look_over(draft: SceneDraft, preposition: Token, targets: Sequence[int]) -> 
     if "above" not in kinds or not targets or not moves or moves - _STAYING:
         return False
     upright = nouns_with("upright") | nouns_with("flat pattern")
-    is_faced = {draft.things[one]["noun"] for one in targets} <= upright
+    is_faced = draft.names(targets) <= upright
     if not is_faced:
         draft.parts["camera"].setdefault("view", "top")
     draft.claim(preposition, "camera", "before" if is_faced else "over", [None], targets)

@@ -113,7 +113,7 @@ def _say_at_once(
     if field == "colour" and token.text in word_set("things", "shades"):
         lit = nouns_with("passage") | nouns_with("has a door") | LAMPS.keys()
         return any(draft.things[n]["noun"] in lit and not draft.can_go(n) for n in subjects)
-    acts = [draft.nouns[draft.things[index]["noun"]].acts for index in subjects]
+    acts = [draft.noun(index).acts for index in subjects]
     if acts and state and (not field or all(state in one for one in acts)):
         _set_state(draft, token, subjects)
         return True
@@ -128,7 +128,7 @@ def _say_at_once(
         is_blown = [_blow(draft, index) for index in subjects] or [bool(draft.effects)]
         draft.show(*([token] if all(is_blown) else []))
         return True
-    nouns = {draft.things[one]["noun"] for one in subjects}
+    nouns = draft.names(subjects)
     is_still = nouns <= nouns_with("fits who goes through")  # "a tunnel exit, 60 km/h"
     is_way = is_still and draft.set_journey(field, value)
     draft.show(*([token] if is_way else []))
@@ -137,7 +137,7 @@ def _say_at_once(
 
 def _blow(draft: SceneDraft, index: int) -> bool:
     """Let things sway in the wind; whether the wind shows in their motion."""
-    thing, noun = draft.things[index], draft.nouns[draft.things[index]["noun"]]
+    thing, noun = draft.things[index], draft.noun(index)
     if noun.is_working or {one["kind"] for one in thing["motions"]} & _IN_WIND:
         return True
     if noun.habitat == "fixed" or noun.motion == "stand":
@@ -148,7 +148,7 @@ def _blow(draft: SceneDraft, index: int) -> bool:
 def _set_state(draft: SceneDraft, token: Token, subjects: Sequence[int]) -> None:
     """Apply an adjective of what opens and closes: "an open door"."""
     state = states()[token.text]
-    able = [n for n in subjects if state in draft.nouns[draft.things[n]["noun"]].acts]
+    able = [n for n in subjects if state in draft.noun(n).acts]
     for index in able:
         add_motion(draft.things[index], VerbSense(kind=state))
     draft.claim(token, "activity", state, able)

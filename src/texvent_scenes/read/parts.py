@@ -36,7 +36,7 @@ def _take_mark(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bo
     """Let things be those that have a mark, "a disc with a white dot"; "on a blade" it is there."""
     marks = read_table("words", "read")["marks"]
     words = [word for group in phrase.groups[:1] for word in list_words(group)]
-    nouns = {draft.things[one]["noun"] for one in subjects}
+    nouns = draft.names(subjects)
     if phrase.preposition.text == "on":
         bears = [read_table("words", "read")["bearers"].get(one.text, ()) for one in words]
         is_there = bool(nouns) and any(nouns <= {*one} for one in bears)

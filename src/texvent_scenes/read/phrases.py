@@ -89,7 +89,7 @@ def _choose_placed(
             return draft.last.nearest  # "passes a man with a suitcase", "carries a tray with cups"
     if before == "with" and told and kind in PLACING and draft.tokens[last.at - 1].has("place"):
         return told  # "in a room with candles on the table"
-    if kind == "on" and {draft.things[n]["noun"] for n in told} <= word_set("things", "flames"):
+    if kind == "on" and draft.names(told) <= word_set("things", "flames"):
         return told or subjects  # "blows out the candles on a cake"
     kinds = {one["kind"] for index in subjects for one in draft.things[index]["relations"]}
     if kind in (kinds if subjects else PLACING):
@@ -98,7 +98,7 @@ def _choose_placed(
         return subjects
     led = [n for index in subjects for one in draft.things[index]["relations"]
            if one["kind"] in ("push", "pull") for n in one["to"]]  # fmt: skip
-    if kind in ("on", "in") and {draft.things[n]["noun"] for n in led} & PERSON_NOUNS:
+    if kind in ("on", "in") and draft.names(led) & PERSON_NOUNS:
         return led  # "pushes a man in a wheelchair", which it is pushed with
     if kind in ("on", "in") and before in SPACED:
         like = (one for one in subjects if draft.walks(one) == draft.walks(told[0]))

@@ -47,13 +47,11 @@ def add_doer(draft: SceneDraft, clause: Clause) -> list[int]:
         return []  # "rain falling"
     if not nouns and any(one.who != "person" for one in acts):
         return []  # "falling": what?
-    things = [{"noun": noun, "motions": [], "count": 1, "relations": []}
-              for noun in ("person", *nouns)]  # fmt: skip
-    draft.things += things
+    doer, *objects = [draft.add(noun) for noun in ("person", *nouns)]
     acts = [one for one in acts if is_of_people(one) and len(nouns) == len(clause.objects)]
-    is_so = any(draft.fits(one, [0], range(1, len(things)), bool(nouns)) for one in acts)
+    is_so = any(draft.fits(one, [doer], objects, bool(nouns)) for one in acts)
     del draft.things[is_so:]
-    return [0][:is_so]
+    return [doer] if is_so else []
 
 
 def do_verb(

@@ -47,11 +47,11 @@ def find_relation(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) ->
     token = phrase.preposition
     sense = token.first("relation")
     kind = sense.value if sense is not None else ""
-    does = {each["kind"] for one in subjects for each in draft.things[one]["motions"]}
+    does = draft.does(subjects)
     kind = "on" if token.text == "onto" and does & _LANDING else kind
     for motions in (draft.things[one]["motions"] for one in subjects if token.text == "onto"):
         motions += [{"kind": "stand"}] if motions and motions[-1]["kind"] == "jump" else []
-    sent = {each["kind"] for one in subjects for each in draft.things[one]["relations"]}
+    sent = draft.acts(subjects)
     sent_to = "" if "throw" in does else "towards"  # it is not thrown
     is_sent = bool(sent or does & _SENT_OFF) or any(map(draft.goes, subjects))
     return sent_to if token.text == "against" and is_sent else kind
@@ -95,7 +95,7 @@ def names_formation(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) 
     """
     heads = [group.head for group in phrase.groups if group.head is not None]
     is_form = any(one.text in word_set("things", "forms") and not one.has("place") for one in heads)
-    own = {draft.things[one]["noun"] for one in subjects}
+    own = draft.names(subjects)
     is_drawn = bool(own) and own <= nouns_with("flat pattern")
     if phrase.preposition.text != "in" or not is_form or is_drawn:
         return False
@@ -143,7 +143,7 @@ def go_to_place(
         "things", "steep"
     )
     is_in = on_foot and token.text in ("through", "in", "into")
-    rises = {each["kind"] for one in moved for each in draft.things[one]["motions"]} == {"rise"}
+    rises = draft.does(moved) == {"rise"}
     does = {each["kind"] for one in moved for each in draft.things[one]["motions"][-1:]}
     at_home = _AT_HOME.get((token.text, "".join(names)), set())
     is_home = bool(does) and does <= at_home
@@ -160,9 +160,7 @@ def go_to_place(
     is_road = token.text in ("on", *_ALONG) and place in (PLACES["road"], PLACES["dirt road"])
     for index in subjects if is_road else ():
         said = token.text == "on" and place is PLACES["road"]  # else a fence stands beside it
-        if draft.walks(index) or (
-            said and draft.nouns[draft.things[index]["noun"]].motion != "drive"
-        ):
+        if draft.walks(index) or (said and draft.noun(index).motion != "drive"):
             draft.things[index].setdefault("placement", "lane")
 
 
@@ -192,7 +190,7 @@ def claim_relation(
     motions = [draft.things[one]["motions"] for one in subjects]
     stops = [bool(one) and (one[-1].get("end_pace") == 0.0 or (
         len(one) > 1 and one[-1]["kind"] == "stand")) for one in motions]  # fmt: skip
-    nouns = {draft.things[one]["noun"] for one in targets}
+    nouns = draft.names(targets)
     does = {each["kind"] for one in motions for each in one}
     if is_shown and kind == "at" and does & SITTING and nouns <= word_set("things", "sat_at"):
         draft.claim(token, "sit at", "", subjects, targets)
@@ -210,15 +208,15 @@ def claim_relation(
 
 def set_before(draft: SceneDraft, token: Token, noun: str, subjects: Sequence[int]) -> bool:
     """Put what a word says without naming it behind things: "a hand, backlit", by a lit panel."""
-    known = [n for n, one in enumerate(draft.things) if one["noun"] == noun]
-    if not known:
-        draft.things.append({"noun": noun, "motions": [], "count": 1, "relations": []})
+    targets = draft.find([noun])[:1]
+    if not targets:
+        targets = [draft.add(noun)]
         if all(map(draft.is_light, subjects)) and not any(map(draft.walks, subjects)):
             draft.things[-1]["size"] = _SMALL_SET
-    targets = [known[0] if known else len(draft.things) - 1]
-    placed = [relate_one(draft, "front", one, targets) for one in subjects if one not in targets]
+    others = [one for one in subjects if one not in targets]
+    placed = [relate_one(draft, "front", one, targets) for one in others]
     draft.mark(token, "shown" if all(placed) else "lost")
-    claim_relation(draft, token, "front", [one for one in subjects if one not in targets], targets)
+    claim_relation(draft, token, "front", others, targets)
     return True
 
 

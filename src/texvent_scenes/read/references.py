@@ -56,7 +56,7 @@ def _find_listed(draft: SceneDraft, groups: Sequence[Group]) -> list[int]:
     last = range(len(draft.things))[-len(groups) :]
     if [draft.things[index]["noun"] for index in last] != nouns:
         return []
-    return [n for n in last if draft.nouns[draft.things[n]["noun"]].habitat != "fixed"]
+    return [n for n in last if draft.noun(n).habitat != "fixed"]
 
 
 def _find_meant(draft: SceneDraft, clause: Clause) -> list[int]:
@@ -88,7 +88,7 @@ def find_object(
     if word == "them":
         both = about if draft.is_many(about) else [*about, *nearest]
         return [one for one in dict.fromkeys(both) if one not in subjects]
-    persons = {n for n, one in enumerate(draft.things) if one["noun"] in PERSON_NOUNS}
+    persons = draft.find(PERSON_NOUNS)
     others = [one for one in dict.fromkeys((*draft.last.acted, *nearest, *about))
               if one not in subjects
               and (one in persons) == (word in ("him", "her"))]  # fmt: skip

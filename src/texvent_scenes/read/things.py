@@ -124,7 +124,7 @@ def _find_whole(draft: SceneDraft, group: Group) -> Group | None:
 
 def _light_own(draft: SceneDraft, group: Group) -> None:
     """Switch the lamps of the last thing that has some: "its headlights are on"."""
-    lamps = [n for n, one in enumerate(draft.things) if one["noun"] in LAMPS][-1:]
+    lamps = draft.find(LAMPS)[-1:]
     is_owned = lamps and group.article in word_set("things", "owners")
     for token in group.unknown if is_owned else ():
         if ("is_lit",) in [one.value[:1] for one in token.all("field")]:
@@ -152,9 +152,9 @@ def _fill(draft: SceneDraft, vessels: Sequence[int], content: Group, token: Toke
 def _name_thing(draft: SceneDraft, group: Group, head: Token) -> list[int]:
     noun = group.noun
     is_owned = group.article in word_set("things", "owners")
-    known = [n for n, one in enumerate(draft.things) if noun and one["noun"] == noun.noun]
+    known = draft.find([noun.noun] if noun else ())
     known = known or (list_kinds(draft, head) if group.article == "the" else [])
-    is_owned |= any(one["noun"] in PERSON_NOUNS for one in draft.things)
+    is_owned |= bool(draft.find(PERSON_NOUNS))
     owners = owned_parts().get(head.text, {}).keys() & {one["noun"] for one in draft.things}
     if owners and group.article in word_set("things", "owners") | {"the", ""}:
         draft.show(head)
@@ -206,14 +206,14 @@ def _pose_again(draft: SceneDraft, group: Group, head: Token) -> list[int]:
         return []
     who, activity = head.all("pose")[0].value
     able = PERSON_NOUNS if who == "person" else {who}
-    same = [n for n, one in enumerate(draft.things) if one["noun"] in able
-            and (draft.last.is_then or who == "person" or not one["motions"])][-1:]  # fmt: skip
-    if who in HAND_NOUNS and {one["noun"] for one in draft.things} & PERSON_NOUNS:
+    is_open = draft.last.is_then or who == "person"
+    same = [one for one in draft.find(able) if is_open or not draft.does([one])][-1:]
+    if who in HAND_NOUNS and draft.find(PERSON_NOUNS):
         draft.mark(head, "shown" if same else "lost")  # "holds it with two fingers"
         return same
     for index in same:
         draft.show(head)
-        if activity not in [one["kind"] for one in draft.things[index]["motions"]]:
+        if activity not in draft.does([index]):
             add_motion(draft.things[index], VerbSense(who, activity))
         draft.claim(head, "activity", activity, [index])
         say_modifiers(draft, group, index)
@@ -227,9 +227,7 @@ def _name_members(
     if group.of is not None or len(draft.things) + len(members) > MAX_BODIES:
         return []
     draft.show(head)
-    draft.last.nearest = [len(draft.things) + one for one in range(len(members))]
-    for noun, count in members:
-        draft.things.append({"noun": noun, "motions": [], "count": count, "relations": []})
+    draft.last.nearest = [draft.add(noun, count) for noun, count in members]
     for index in draft.last.nearest:
         say_modifiers(draft, group, index)
     return draft.last.nearest

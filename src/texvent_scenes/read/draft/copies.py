@@ -102,6 +102,5 @@ def count_like(draft: SceneDraft, own: int) -> int:
 
 def add_like(draft: SceneDraft, own: int) -> list[int]:
     """Add one more of a kind, which does nothing yet: "two goats fight, a third eats"."""
-    kept = {key: value for key, value in draft.things[own].items() if key in ("noun", "deed")}
-    draft.things.append(kept | {"motions": [], "relations": [], "count": 1})
-    return [len(draft.things) - 1]
+    deed = {key: value for key, value in draft.things[own].items() if key == "deed"}
+    return [draft.add(draft.things[own]["noun"], **deed)]

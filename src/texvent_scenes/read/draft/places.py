@@ -59,6 +59,5 @@ def _fill_place(draft: SceneDraft, token: Token, place: str) -> None:
     full = read_table("words", "read")["brings"]
     brought = full.get(f"{token.text} {place}") or full.get(token.text, {})
     for noun, count in brought.items():
-        draft.things.append({"noun": noun, "motions": [], "relations": [], "count": count})
         draft.show(token)
-        draft.claim(token, SEEN, "", [len(draft.things) - 1])
+        draft.claim(token, SEEN, "", [draft.add(noun, count)])
