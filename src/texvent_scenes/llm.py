@@ -17,9 +17,8 @@ from typing import Any, Literal, get_args, get_origin
 from texvent.errors import ConfigError, InputError, TexventError, one_line, shown
 from texvent.prompt_report import PromptReport
 from texvent_scenes.meanings import list_meanings, meanings_of
-from texvent_scenes.read.draft import is_grammar
-from texvent_scenes.read.lexicon import lexicon_of
-from texvent_scenes.read.tokens import Token, split_prompt
+from texvent_scenes.read.parsing.lexicon import lexicon_of
+from texvent_scenes.read.parsing.tokens import Token, split_prompt
 from texvent_scenes.spec import scene as spec
 from texvent_scenes.spec.data import scene_from_data
 from texvent_scenes.spec.tables import field_types, inner_type, plain_type, required_fields
@@ -164,7 +163,7 @@ def ground(prompt: str, answer: Mapping[str, Any]) -> tuple[spec.Scene, PromptRe
         raise InputError(f"nothing of {shown(prompt)} is in the scene that the model wrote")
     added = ", ".join(dict.fromkeys(check.invented))
     words = {one.text: check.used.isdisjoint(meanings_of(one.senses)) for one in tokens
-             if not (one.is_sign or is_grammar(one) or one.has("relation", "small", "negations"))
+             if not (one.is_sign or one.is_grammar or one.has("relation", "small", "negations"))
              }  # fmt: skip
     report = PromptReport(
         shown=tuple(word for word, is_lost in words.items() if not is_lost),

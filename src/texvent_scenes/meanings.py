@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from texvent_scenes.models.nouns import NOUNS
-from texvent_scenes.read.lexicon import Senses, lexicon_of
-from texvent_scenes.read.senses import find_nouns
-from texvent_scenes.read.tokens import split_prompt
+from texvent_scenes.read.parsing.lexicon import Senses, lexicon_of
+from texvent_scenes.read.parsing.senses import find_nouns
+from texvent_scenes.read.parsing.tokens import split_prompt
 
 _FIELDS = {"turns_hz": "rate_hz"}
 """Fields of words, and of scenes, where they differ."""

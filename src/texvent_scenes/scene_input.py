@@ -84,8 +84,8 @@ def _read(prompt: str, nouns: Mapping[str, Noun]) -> tuple[Reading, dict[str, st
 
 def _hint(reading: Reading) -> str:
     """A hint for a prompt whose words are known, but not as they are put together."""
-    from texvent_scenes.read.lexicon import lexicon_of
-    from texvent_scenes.read.tokens import split_prompt
+    from texvent_scenes.read.parsing.lexicon import lexicon_of
+    from texvent_scenes.read.parsing.tokens import split_prompt
 
     words = ((one, split_prompt(one, lexicon_of(None))) for one in reading.not_understood)
     known = [one for one, tokens in words if len(tokens) == 1 and tokens[0].has("noun")]
@@ -256,7 +256,7 @@ def understand(subject: Subject, nouns: Mapping[str, Noun]) -> SceneDescription:
 
 def _meant(words: Iterable[str], nouns: Mapping[str, Noun]) -> Iterator[str]:
     """Unknown words that are spelt nearly as a noun with the same initial, each with it."""
-    from texvent_scenes.read.lexicon import lexicon_of
+    from texvent_scenes.read.parsing.lexicon import lexicon_of
 
     known, initials = lexicon_of(nouns), dict[str, set[str]]()
     for key, noun in nouns.items():

@@ -8,7 +8,7 @@ from texvent_scenes.assets.nouns import assets_of
 from texvent_scenes.meanings import meanings_of
 from texvent_scenes.models.nouns import FAMILIES
 from texvent_scenes.models.protocol import Noun
-from texvent_scenes.read.lexicon import lexicon_of
+from texvent_scenes.read.parsing.lexicon import lexicon_of
 from texvent_scenes.scene_input import list_nouns
 from texvent_scenes.words import list_plurals
 

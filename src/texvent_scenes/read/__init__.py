@@ -1,8 +1,8 @@
 """Sentences to scenes: a small reader of short English prompts.
 
-Words become tokens by the phrases that are known (`lexicon`), tokens become clauses
-(`clauses`) of noun groups, one verb each, and clauses become a scene (`scenes`). What is not
-understood changes nothing and is reported.
+`parsing` makes tokens of words by the phrases that are known, and of tokens clauses of noun groups,
+one verb each. `scenes` fills a `draft` of a scene with what these say, clause by clause; `account`
+finishes it. What is not understood changes nothing and is reported.
 """
 
 from texvent_scenes.read.account import Reading

@@ -13,9 +13,10 @@ from texvent_scenes.description import Claim, Dependence
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, read_table, trait_values
-from texvent_scenes.read.draft import OPPOSITE, SceneDraft, is_grammar
-from texvent_scenes.read.lexicon import deeds, word_set
-from texvent_scenes.read.tokens import NO_TOKEN, Token
+from texvent_scenes.read.draft.copies import OPPOSITE, halve, take_turns
+from texvent_scenes.read.draft.scene_draft import SceneDraft
+from texvent_scenes.read.parsing.lexicon import deeds, word_set
+from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
 from texvent_scenes.spec.data import PLACING, scene_from_data
 from texvent_scenes.spec.scene import MAX_BODIES, Scene, number_nouns
 
@@ -63,7 +64,7 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
     _limit_counts(draft)
     fates: dict[str, str] = {}
     for token, after in zip(draft.tokens, (*draft.tokens[1:], NO_TOKEN), strict=False):
-        is_open = token.is_sign or is_grammar(token)
+        is_open = token.is_sign or token.is_grammar
         is_open |= token.text == "to" and bool(after.verbs("base"))  # "starts to spin"
         is_begun = token.text in word_set("things", "aspects")
         is_open &= not is_begun or after.text == "to" or bool(after.verbs("ing"))
@@ -147,18 +148,13 @@ def _find_opponents(draft: SceneDraft) -> None:
             continue
         players, targets = [index], []
         if thing["count"] == 1:
-            same = [{"kind": kind}]
-            draft.things.append({"noun": "person", "motions": same, "count": 1, "relations": []})
-            players.append(len(draft.things) - 1)
+            players.append(draft.add("person", motions=[{"kind": kind}]))
         ball, _ = table[kind]
         for noun in table[kind]:
-            known = [n for n, one in enumerate(draft.things)
-                     if one["noun"] == noun or noun.endswith(one["noun"])]  # fmt: skip
+            known = [n for n, one in enumerate(draft.things) if noun.endswith(one["noun"])]
             for one in known[:1]:
                 draft.things[one] |= {"noun": noun, "motions": []}
-            if not known:
-                draft.things.append({"noun": noun, "motions": [], "count": 1, "relations": []})
-            targets.append(known[0] if known else len(draft.things) - 1)
+            targets.append(known[0] if known else draft.add(noun))
             if noun == ball:  # else it is a speck between two people
                 draft.things[targets[-1]].setdefault("size", _SEEN_SIZE)
         for one in players:
@@ -167,7 +163,7 @@ def _find_opponents(draft: SceneDraft) -> None:
 
 def _list_claims(draft: SceneDraft) -> Iterator[Claim]:
     """Claims of words that are not lost at another place, where nothing is claimed of them."""
-    lost = [one for one in draft.tokens if not draft.shows(one) and not is_grammar(one)]
+    lost = [one for one in draft.tokens if not draft.shows(one) and not one.is_grammar]
     claimed = {at for at, claims in draft.claims.items() if any(one.is_open for one in claims)}
     closed = {one.text for one in lost if one.at not in claimed}
     for at, claims in draft.claims.items():
@@ -192,11 +188,9 @@ def _hang_up(draft: SceneDraft) -> None:
     for token in draft.tokens:
         wall, _, rest = token.text.partition(" ")
         named = {one.value.noun for one in token.all("noun")} & hung if rest else set()
-        bare = [n for n, one in enumerate(draft.things)
-                if one["noun"] in named and not one["relations"]]  # fmt: skip
+        bare = [one for one in draft.find(named) if not draft.things[one]["relations"]]
         for index in bare[:1] if wall in walls else ():
-            draft.things.append({"noun": wall, "motions": [], "count": 1, "relations": []})
-            draft.relate(index, "on", [len(draft.things) - 1])
+            draft.relate(index, "on", [draft.add(wall)])
 
 
 def _do_deeds(draft: SceneDraft) -> None:
@@ -204,11 +198,10 @@ def _do_deeds(draft: SceneDraft) -> None:
     for index, one in enumerate(draft.things):
         deed = one.pop("deed", None)
         one.pop("word", None)
-        acts = {each["kind"] for each in one["relations"]} & word_set("things", "doing")
+        acts = draft.acts([index]) & word_set("things", "doing")
         if deed and not (one["motions"] or acts or "is_lost" in one):
             one["motions"].append({"kind": deed})
-        is_done = deed in [each["kind"] for each in one["motions"]]
-        for token in draft.tokens if is_done else ():
+        for token in draft.tokens if deed in draft.does([index]) else ():
             if deeds().get(token.text) == deed:
                 draft.fates[token.at] = "shown"
                 draft.claim(token, "activity", deed, [index])
@@ -216,10 +209,10 @@ def _do_deeds(draft: SceneDraft) -> None:
 
 def _lead_round(draft: SceneDraft) -> None:
     """Have what goes in circles do so on the ring there is: "a roundabout with cars circling"."""
-    rings = [n for n, one in enumerate(draft.things) if one["noun"] in trait_values("circled on")]
+    rings = draft.find(trait_values("circled on").keys())
     for index, one in enumerate(draft.things if rings else ()):
         kinds = [each["kind"] for each in one["motions"]]
-        told = {each["kind"] for each in one["relations"]} & (PLACING | {"around"})
+        told = draft.acts([index]) & (PLACING | {"around"})
         if kinds == ["orbit"] and not told:
             draft.relate(index, "around", rings[:1])
 
@@ -314,9 +307,9 @@ def _build(draft: SceneDraft, prompt: str) -> Scene:
         for motion in (each for each in one["motions"] if "end_m_s" in each):
             _reach_speed(motion, draft.nouns[one["noun"]])
         if any([each.pop("in_turn", False) for each in one["motions"]]) and one["count"] > 1:
-            draft.take_turns(index)
+            take_turns(draft, index)
         if any(each.get("direction") == OPPOSITE for each in one["motions"]):
-            draft.halve(index)
+            halve(draft, index)
     _run_belts(draft)
     _give_each(draft)
     ids = number_nouns([one["noun"] for one in draft.things])

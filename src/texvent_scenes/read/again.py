@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from texvent_scenes.models.activities import PERSON_NOUNS
-from texvent_scenes.read.draft import SceneDraft
-from texvent_scenes.read.groups import Group, Phrase
-from texvent_scenes.read.lexicon import general_names, word_set
-from texvent_scenes.read.tokens import Token
+from texvent_scenes.read.draft.scene_draft import SceneDraft
+from texvent_scenes.read.parsing.groups import Group, Phrase
+from texvent_scenes.read.parsing.lexicon import general_names, word_set
+from texvent_scenes.read.parsing.tokens import Token
 from texvent_scenes.spec.data import PLACING
 
 

@@ -3,106 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import Any
 
 from texvent_scenes.models.tables import nouns_with, read_table
-from texvent_scenes.read.abilities import MEANS
-from texvent_scenes.read.clauses import Clause
-from texvent_scenes.read.draft import SceneDraft, names_place, split_move, turn_by
-from texvent_scenes.read.groups import Group, Phrase
-from texvent_scenes.read.lexicon import Sense, lexicon_of, word_set
+from texvent_scenes.read.draft.abilities import MEANS
+from texvent_scenes.read.draft.motions import split_move, turn_by
+from texvent_scenes.read.draft.places import names_place
+from texvent_scenes.read.draft.scene_draft import SceneDraft
+from texvent_scenes.read.parsing.clauses import Clause
+from texvent_scenes.read.parsing.groups import Phrase
+from texvent_scenes.read.parsing.lexicon import word_set
+from texvent_scenes.read.parsing.tokens import Token
 from texvent_scenes.read.parts import list_words
-from texvent_scenes.read.tokens import NO_TOKEN, Token
 
-_FIRST_PERSON = ("camera", "view", "first person")
 _STAYING = frozenset({"handheld", "roll", "truck"})
 """Moves of a camera over what it looks at."""
-
-
-def is_ego(draft: SceneDraft, clause: Clause) -> bool:
-    """Whether a camera goes that is not named: "driving through a city"."""
-    verbs = clause.verb.verbs("ing") if clause.verb is not None else ()
-    travels = any(one.value.kind.startswith("travel") for one in verbs)
-    is_place = all(one.head and names_place(one.head, "") for one in clause.subjects)
-    before = draft.tokens[verb.at - 1] if (verb := clause.verb) and verb.at else NO_TOKEN
-    kinds = {one.value[1] for one in before.all("scene")} | {one.kind for one in before.senses}
-    is_own = before.is_unknown or kinds & {"noun", "effect", "verb", "weather"}
-    if is_own and not kinds & {"shot", "style"}:
-        return False  # "rain drops running down a pane"
-    is_new = not draft.things and clause.about not in ("nearest", "company")
-    return travels and is_place and is_new
-
-
-def sit_in(draft: SceneDraft, clause: Clause) -> Clause | None:
-    """The clause of a driver's view of who goes through a passage, said of the camera itself.
-
-    "A car exits a tunnel, dashcam view"; None: no camera is in a vehicle.
-    """
-    shots = {sense.value for token in draft.tokens for sense in token.all("shot")}
-    nouns = [group.noun.noun for group in clause.subjects if group.noun is not None]
-    is_driven = [draft.nouns[one].motion for one in nouns] == ["drive"]
-    is_driven &= not any(group.is_plural for group in clause.subjects)
-    if "travel forward drive" not in shots or draft.things or not (is_driven and clause.verb):
-        return None
-    way, drive = Sense("relation", "through"), lexicon_of(draft.nouns)[("driving",)]
-    first = Phrase(Token("through", clause.verb.at), clause.objects)
-    after = [one if isinstance(one, Token) or not _names_passage(one.groups) else
-             Phrase(replace(one.preposition, senses=(way,)), one.groups)
-             for one in (first, *clause.after) if isinstance(one, Token) or one.groups]  # fmt: skip
-    if not any(isinstance(one, Phrase) and _names_passage(one.groups) for one in after):
-        return None
-    draft.mark(clause.subjects[0].head or NO_TOKEN, "camera")
-    verb = replace(clause.verb, senses=drive)
-    return replace(clause, subjects=(), objects=(), verb=verb, after=tuple(after))
-
-
-def look_out(draft: SceneDraft, clause: Clause) -> Clause | None:
-    """The clause of a first-person view of who goes somewhere, said of the camera itself.
-
-    "First-person view of a drone flying through a forest"; None: it is another view or an act.
-    """
-    said = {sense.value for token in draft.tokens for sense in token.all("scene")}
-    (first, *others) = clause.subjects or (None,)
-    verb = clause.verb
-    if _FIRST_PERSON not in said or first is None or others or verb is None:
-        return None
-    known = [one["noun"] for one in draft.things]
-    if known and not (clause.about == "company" and first.noun and known == [first.noun.noun]):
-        return None
-    goes = [one for one in verb.all("verb") if one.value.who == "camera"]
-    is_going = any(one.value.kind.startswith("travel") for one in goes) and not clause.objects
-    if first.noun is None or first.is_plural or first.head is None or not is_going:
-        return None
-    if not draft.nouns[first.noun.noun].speed_m_s:
-        return None
-    draft.mark(first.head, "camera")
-    draft.things.clear()
-    draft.claims.clear()
-    means = {"fly": "flying", "drive": "driving"}.get(draft.nouns[first.noun.noun].motion)
-    if means and not any(one.value.kind in MEANS for one in verb.all("verb")):  # "races"
-        verb = replace(verb, senses=lexicon_of(draft.nouns)[(means,)])
-    return replace(clause, subjects=(), about="", verb=verb)
-
-
-def _names_passage(groups: Sequence[Group]) -> bool:
-    """Whether some of the groups name what has a way through."""
-    nouns = {one.noun.noun for one in groups if one.noun is not None}
-    return bool(nouns & nouns_with("passage"))
-
-
-def is_shot(clause: Clause) -> bool:
-    """Whether a clause without a subject goes on about a shot: "6-DoF motion over a poster"."""
-    if clause.subjects or clause.objects or clause.about not in ("", "same"):
-        return False
-    adverbs = [one for one in clause.after if isinstance(one, Token) and one.has("adverb")]
-    if any(sense.value[0] == "speed_m_s" for one in adverbs for sense in one.all("adverb")):
-        return False  # it is that of the view
-    words = [one for one in clause.after if one not in adverbs]
-    first = words[0] if words else None
-    if not isinstance(first, Token) or not (first.has("shot") or first.is_view):
-        return False
-    return clause.verb is None or first.at < clause.verb.at
 
 
 def go_through(
@@ -110,7 +25,7 @@ def go_through(
 ) -> bool:
     """Lead a camera that goes ahead through what has a way through, or out; whether it has one."""
     is_ahead = move["kind"] == "travel" or split_move("dolly in").items() <= move.items()
-    nouns = {draft.things[one]["noun"] for one in targets}
+    nouns = draft.names(targets)
     if move.get("means") == "fly" or not (is_ahead and nouns <= nouns_with("passage")):
         return False
     if move["kind"] == "dolly":
@@ -172,7 +87,7 @@ def look_over(draft: SceneDraft, preposition: Token, targets: Sequence[int]) -> 
     if "above" not in kinds or not targets or not moves or moves - _STAYING:
         return False
     upright = nouns_with("upright") | nouns_with("flat pattern")
-    is_faced = {draft.things[one]["noun"] for one in targets} <= upright
+    is_faced = draft.names(targets) <= upright
     if not is_faced:
         draft.parts["camera"].setdefault("view", "top")
     draft.claim(preposition, "camera", "before" if is_faced else "over", [None], targets)

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 from texvent_scenes.models.activities import is_mutual
 from texvent_scenes.models.tables import read_table, trait_values
-from texvent_scenes.read.draft import SceneDraft
-from texvent_scenes.read.lexicon import VerbSense, word_set
-from texvent_scenes.read.tokens import Token
+from texvent_scenes.read.draft.scene_draft import SceneDraft
+from texvent_scenes.read.parsing.lexicon import VerbSense, word_set
+from texvent_scenes.read.parsing.tokens import Token
 
 EGO = "ego"
 """Needs of an act that is done to the vehicle of the camera."""

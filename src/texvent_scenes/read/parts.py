@@ -6,10 +6,11 @@ from collections.abc import Sequence
 
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.tables import nouns_with, read_table
-from texvent_scenes.read.draft import BLINK_HZ, SceneDraft
-from texvent_scenes.read.groups import Group, Phrase
-from texvent_scenes.read.lexicon import owned_parts, word_set
-from texvent_scenes.read.tokens import Token
+from texvent_scenes.read.draft.motions import BLINK_HZ
+from texvent_scenes.read.draft.scene_draft import SceneDraft
+from texvent_scenes.read.parsing.groups import Group, Phrase
+from texvent_scenes.read.parsing.lexicon import owned_parts, word_set
+from texvent_scenes.read.parsing.tokens import Token
 
 
 def are_own_parts(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
@@ -35,7 +36,7 @@ def _take_mark(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bo
     """Let things be those that have a mark, "a disc with a white dot"; "on a blade" it is there."""
     marks = read_table("words", "read")["marks"]
     words = [word for group in phrase.groups[:1] for word in list_words(group)]
-    nouns = {draft.things[one]["noun"] for one in subjects}
+    nouns = draft.names(subjects)
     if phrase.preposition.text == "on":
         bears = [read_table("words", "read")["bearers"].get(one.text, ()) for one in words]
         is_there = bool(nouns) and any(nouns <= {*one} for one in bears)

@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 from texvent_scenes.description import SEEN
-from texvent_scenes.models.activities import AIMED, PERSON_NOUNS, TO_AND_FROM_SEATS
-from texvent_scenes.models.anchors import has_rim, takes_in
-from texvent_scenes.models.people.outfit import list_props
+from texvent_scenes.models.activities import PERSON_NOUNS, TO_AND_FROM_SEATS
 from texvent_scenes.models.places import PLACES, PlaceModel
-from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
-from texvent_scenes.read.abilities import MEANS
-from texvent_scenes.read.draft import SceneDraft
-from texvent_scenes.read.groups import Group, Phrase
-from texvent_scenes.read.lexicon import word_set
+from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.read.draft.abilities import MEANS
+from texvent_scenes.read.draft.copies import part_ways
+from texvent_scenes.read.draft.scene_draft import SceneDraft
+from texvent_scenes.read.parsing.groups import Group, Phrase
+from texvent_scenes.read.parsing.lexicon import word_set
+from texvent_scenes.read.parsing.tokens import Token
 from texvent_scenes.read.parts import list_words
-from texvent_scenes.read.tokens import Token
-from texvent_scenes.spec.data import ACTED, PLACING, SENT, SPACED, WAYS
+from texvent_scenes.read.relations import relate_one
+from texvent_scenes.spec.data import PLACING, SPACED
 
 _WATERS = frozenset({"sea", "lake", "river"})
 _AT_HOME = {
@@ -31,10 +30,6 @@ _CLAIMED = PLACING | {"past", "around", "towards", "away from", "from", "off"}
 _ARRIVALS = {"into": "in", "onto": "on"}
 _SENT_OFF = frozenset({"bounce", "jump", "throw"})
 """Motions against something that is reached: no pendulum swings so before a wall."""
-_DROPPED = frozenset({"move", "fall", "throw", "roll", "bounce", "sink", "fly", "jump"})
-"""Motions by which small things come into what is open above."""
-_ON_FOOT = frozenset({"climb", "walk", "run", "move"})
-"""Motions of who climbs, as they are said."""
 _RAINED_ON = (
     "on", "above", "around", "past", "behind", "front", "beside", "through", "in", "against",
 )  # fmt: skip
@@ -43,13 +38,8 @@ _ALONG = ("along", "down", "up")
 """Prepositions of ways that lead on."""
 SITTING = frozenset({"sit", *TO_AND_FROM_SEATS})
 """Motions of who is on a seat or on the ground."""
-_RUNNING = frozenset({"slide", "roll", "drive", "move"})
-"""Motions into a body that has no opening: they meet."""
-_ROUND = frozenset({"on", "past", "at", "in", "through", "into"})
-"""Relations to a ring that those who go have along it."""
 _SMALL_SET = 0.45
 """Size of a backdrop of things that are small enough to be thrown."""
-_SMALL = nouns_with("in hand or on something")
 
 
 def find_relation(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> str:
@@ -57,11 +47,11 @@ def find_relation(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) ->
     token = phrase.preposition
     sense = token.first("relation")
     kind = sense.value if sense is not None else ""
-    does = {each["kind"] for one in subjects for each in draft.things[one]["motions"]}
+    does = draft.does(subjects)
     kind = "on" if token.text == "onto" and does & _LANDING else kind
     for motions in (draft.things[one]["motions"] for one in subjects if token.text == "onto"):
         motions += [{"kind": "stand"}] if motions and motions[-1]["kind"] == "jump" else []
-    sent = {each["kind"] for one in subjects for each in draft.things[one]["relations"]}
+    sent = draft.acts(subjects)
     sent_to = "" if "throw" in does else "towards"  # it is not thrown
     is_sent = bool(sent or does & _SENT_OFF) or any(map(draft.goes, subjects))
     return sent_to if token.text == "against" and is_sent else kind
@@ -105,7 +95,7 @@ def names_formation(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) 
     """
     heads = [group.head for group in phrase.groups if group.head is not None]
     is_form = any(one.text in word_set("things", "forms") and not one.has("place") for one in heads)
-    own = {draft.things[one]["noun"] for one in subjects}
+    own = draft.names(subjects)
     is_drawn = bool(own) and own <= nouns_with("flat pattern")
     if phrase.preposition.text != "in" or not is_form or is_drawn:
         return False
@@ -128,7 +118,7 @@ def claim_mutual(
     """Send things to each other, and leave it to the staged scene whether they are so."""
     does = {each["kind"] for one in subjects for each in draft.things[one]["motions"][-1:]}
     if kind in ("past", "towards") and does & {*MEANS, "move", "roll", "slide"}:
-        draft.part_ways(subjects)
+        part_ways(draft, subjects)
     for token in tokens if subjects and kind else ():
         draft.claim(token, "mutual", kind, subjects[:1], subjects[1:])
 
@@ -153,7 +143,7 @@ def go_to_place(
         "things", "steep"
     )
     is_in = on_foot and token.text in ("through", "in", "into")
-    rises = {each["kind"] for one in moved for each in draft.things[one]["motions"]} == {"rise"}
+    rises = draft.does(moved) == {"rise"}
     does = {each["kind"] for one in moved for each in draft.things[one]["motions"][-1:]}
     at_home = _AT_HOME.get((token.text, "".join(names)), set())
     is_home = bool(does) and does <= at_home
@@ -170,9 +160,7 @@ def go_to_place(
     is_road = token.text in ("on", *_ALONG) and place in (PLACES["road"], PLACES["dirt road"])
     for index in subjects if is_road else ():
         said = token.text == "on" and place is PLACES["road"]  # else a fence stands beside it
-        if draft.walks(index) or (
-            said and draft.nouns[draft.things[index]["noun"]].motion != "drive"
-        ):
+        if draft.walks(index) or (said and draft.noun(index).motion != "drive"):
             draft.things[index].setdefault("placement", "lane")
 
 
@@ -190,89 +178,6 @@ def _shows_way(draft: SceneDraft, token: Token, place: PlaceModel, subjects: Seq
     return is_bank and not is_past and (not kinds or bool(kinds & word_set("things", "places")))
 
 
-def _part_worn(draft: SceneDraft, targets: Sequence[int]) -> list[list[int]]:
-    """Things that can be worn, and others: "with glasses and a boy"."""
-    worn = {one for one in targets if draft.things[one]["noun"] in word_set("things", "worn")}
-    parts = [one for one in targets if one in worn], [one for one in targets if one not in worn]
-    return [*filter(None, parts)]
-
-
-def _bear(draft: SceneDraft, index: int, targets: Sequence[int]) -> str:
-    """Relation of what is with something to it: "a horse with a rider", "a tray with glasses"."""
-    bearer, first = draft.things[index]["noun"], draft.things[targets[0]]["noun"]
-    if bearer in nouns_with("see-through"):
-        return "in"
-    if all(map(draft.walks, targets)):
-        is_ridden = bearer in word_set("things", "mounts") and first in PERSON_NOUNS
-        return "ride" if is_ridden else "on" if bearer in nouns_with("seat") else ""
-    if draft.can_go(targets[0]):
-        return ""
-    is_put = bearer in word_set("things", "laden") and first not in nouns_with("seat")
-    return "on" if is_put else "in" if bearer in word_set("things", "vessels") else ""
-
-
-def relate_one(draft: SceneDraft, kind: str, index: int, targets: Sequence[int]) -> bool:
-    """Relate a thing to others as far as scenes can; whether it is so."""
-    thing, noun = draft.things[index], draft.things[targets[0]]["noun"]
-    if kind == "with" and len(parts := _part_worn(draft, targets)) > 1:
-        return all([relate_one(draft, kind, index, each) for each in parts])
-    if kind == "with" and thing["noun"] in trait_values("circled on"):
-        return all(
-            [
-                draft.relate(one, _choose_relation(draft, "on", one, index), [index])
-                for one in targets
-            ]
-        )
-    if kind == "with":
-        if borne := _bear(draft, index, targets):
-            return all([draft.relate(one, borne, [index]) for one in targets])
-        if noun in nouns_with("towering"):
-            return True  # it stands in the distance
-        if not any(map(draft.can_go, (index, *targets))):
-            return False  # "a vase with roses", "a disc with a dot"
-    if kind == "on" and noun in word_set("things", "peaks"):
-        return False  # its slopes bear nothing
-    targets = [ridden_by(draft, one, kind) for one in targets]  # "behind the rider"
-    used = _use(thing, noun) if kind in ("in", "into", "from", "on") else ""
-    kind = used or _choose_relation(draft, kind, index, targets[0])
-    sat_at = [one["to"] for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
-    if sat_at and draft.nouns[noun].speed_m_s == 0.0:  # "at a table with a laptop"
-        return all([draft.relate(one, "on", sat_at[0]) for one in targets])
-    tops = [one["to"] for one in thing["relations"] if one["kind"] == "on"
-            and draft.things[one["to"][0]]["noun"] in word_set("things", "tables")]  # fmt: skip
-    small = [one for one in targets if draft.things[one]["noun"] in _SMALL
-             and not draft.things[one]["relations"]]  # fmt: skip
-    is_still = all(one["kind"] == "stand" for one in thing["motions"])
-    for one in small if tops and kind in SPACED and is_still else ():
-        draft.relate(one, "on", tops[0])  # "a cup on a table beside a book"
-    return bool(kind) and draft.relate(ridden_by(draft, index, kind), kind, targets)
-
-
-_HANDED = {"into": "in", "in": "in", "on": "on", "to": "on", "above": "on"}
-
-
-def hand_over(
-    draft: SceneDraft, token: Token, kind: str, subjects: Sequence[int], targets: Sequence[int]
-) -> str:
-    """Fate of where a machine takes or leaves things: "picks a box off a belt"; "" = it does not.
-
-    The thing is there at first, or at the end; the staged scene tells.
-    """
-    machines = trait_values("gripper").keys()
-    acts = [one for n in range(len(draft.things)) for one in draft.things[n]["relations"]
-            if draft.things[n]["noun"] in machines and one["kind"] in ACTED
-            and (n in subjects or {*one["to"]} & {*subjects})]  # fmt: skip
-    things = [n for one in acts for n in one["to"]]
-    is_taken = kind in ("from", "off", "out of") or (acts[-1:] and acts[-1]["kind"] == "lift")
-    place = "on" if is_taken else _HANDED.get("on" if token.text == "onto" else kind, "")
-    if not (things and place) or not {*targets}.isdisjoint(things):
-        return ""
-    is_so = all([draft.relate(one, place, targets) for one in things])
-    left = ("relation", "into") if place == "in" else ("arrive", place)
-    draft.claim(token, *(("off", "") if is_taken else left), things, targets)
-    return "shown" if is_so else "lost"
-
-
 def claim_relation(
     draft: SceneDraft, token: Token, kind: str, subjects: Sequence[int], targets: Sequence[int]
 ) -> None:
@@ -285,7 +190,7 @@ def claim_relation(
     motions = [draft.things[one]["motions"] for one in subjects]
     stops = [bool(one) and (one[-1].get("end_pace") == 0.0 or (
         len(one) > 1 and one[-1]["kind"] == "stand")) for one in motions]  # fmt: skip
-    nouns = {draft.things[one]["noun"] for one in targets}
+    nouns = draft.names(targets)
     does = {each["kind"] for one in motions for each in one}
     if is_shown and kind == "at" and does & SITTING and nouns <= word_set("things", "sat_at"):
         draft.claim(token, "sit at", "", subjects, targets)
@@ -303,35 +208,16 @@ def claim_relation(
 
 def set_before(draft: SceneDraft, token: Token, noun: str, subjects: Sequence[int]) -> bool:
     """Put what a word says without naming it behind things: "a hand, backlit", by a lit panel."""
-    known = [n for n, one in enumerate(draft.things) if one["noun"] == noun]
-    if not known:
-        draft.things.append({"noun": noun, "motions": [], "count": 1, "relations": []})
+    targets = draft.find([noun])[:1]
+    if not targets:
+        targets = [draft.add(noun)]
         if all(map(draft.is_light, subjects)) and not any(map(draft.walks, subjects)):
             draft.things[-1]["size"] = _SMALL_SET
-    targets = [known[0] if known else len(draft.things) - 1]
-    placed = [relate_one(draft, "front", one, targets) for one in subjects if one not in targets]
+    others = [one for one in subjects if one not in targets]
+    placed = [relate_one(draft, "front", one, targets) for one in others]
     draft.mark(token, "shown" if all(placed) else "lost")
-    claim_relation(draft, token, "front", [one for one in subjects if one not in targets], targets)
+    claim_relation(draft, token, "front", others, targets)
     return True
-
-
-def bear_on(draft: SceneDraft, verb: Token, index: int, objects: Sequence[int]) -> None:
-    """Put things on what carries them: "a robot carrying a box", "a belt carrying bolts"."""
-    for one in objects:
-        draft.things[one]["motions"] = []
-    placed = [relate_one(draft, "on", one, [index]) for one in objects]
-    draft.mark(verb, "shown" if placed and all(placed) else "lost")
-    for one in objects:
-        draft.claim(verb, "relation", "on", [one], [index])
-
-
-def lead_on(draft: SceneDraft, verb: Token, index: int, objects: Sequence[int]) -> None:
-    """Have those who are led come after: "a dog leads a man"."""
-    going = [one for one in objects if draft.can_go(one)]
-    for one in going:
-        draft.things[one]["motions"] = draft.things[one]["motions"] or [{"kind": "move"}]
-    placed = [draft.relate(one, "follow", [index]) for one in going]
-    draft.mark(verb, "shown" if placed and all(placed) else "lost")
 
 
 def keep_distance(draft: SceneDraft, preposition: Token, subjects: Sequence[int]) -> None:
@@ -367,97 +253,3 @@ def is_rained_on(draft: SceneDraft, token: Token, kind: str) -> bool:
     is_weather = {one.value[1] for one in before.all("scene")} & {"weather", "has_snow"}
     is_all_over = {one.value for one in before.all("effect")} & word_set("things", "all_over")
     return bool(is_weather or is_all_over) and kind in _RAINED_ON
-
-
-def ridden_by(draft: SceneDraft, index: int, kind: str) -> int:
-    """Vehicle that goes where its rider goes: "rides a bicycle past a tree"."""
-    relations = draft.things[index]["relations"]
-    ridden = [one["to"][0] for one in relations if one["kind"] == "ride"]
-    is_way = kind in word_set("things", "passed") | {
-        "through",
-        "follow",
-        "overtake",
-        "behind",
-        *WAYS,
-    }
-    return ridden[0] if ridden and is_way else index
-
-
-def _choose_way(draft: SceneDraft, kind: str, index: int, other: int) -> str:
-    """The way that is meant, as far as its target has one; "" = none."""
-    thing, noun = draft.things[index], draft.things[other]["noun"]
-    does, is_led = {one["kind"] for one in thing["motions"]}, bool(draft.things[other]["motions"])
-    if kind in ("into", "out of"):
-        is_open = noun in trait_values("opening") or noun in nouns_with("closed")
-        is_open |= kind == "into" and bool(does) and does <= _DROPPED and has_rim(noun)
-        if any(one["kind"] in SENT for one in thing["relations"]):
-            return "towards" if kind == "into" and takes_in(noun) else ""
-        is_met = bool(does & _RUNNING) and draft.nouns[noun].habitat == "fixed"
-        is_met &= trait_value("container", noun) is None
-        other_kind = "from" if kind == "out of" else "collide" if is_met else ""
-        return kind if is_open else other_kind
-    if kind in ("up", "down"):
-        if noun in trait_values("slope"):
-            return "on" if kind == "down" and does != {"bounce"} else kind
-        can_climb = noun in trait_values("climbed") and bool(does) and does <= _ON_FOOT
-        if can_climb and draft.walks(index):
-            thing["motions"][-1]["kind"] = "climb"  # "goes up a tree"
-        return kind if can_climb else ""
-    if kind == "off":
-        return kind if does & {"jump", "fall", "roll", "slide"} else ""
-    acts = {one["kind"] for one in thing["relations"]} & (ACTED - {"push", "pull"})
-    return "towards" if is_led or acts or not draft.goes(index) else kind
-
-
-def _choose_near(kind: str, noun: str, does: set[str], acts: set[str]) -> str:
-    """The relation that "at" means, and "on" of work at a table; "" = none other."""
-    is_table = noun in word_set("things", "tables")
-    if kind != "at":  # "pours water into a glass on a table"
-        return "at" if kind == "on" and is_table and does & word_set("things", "at_tables") else ""
-    if acts & {*SENT} or does & AIMED:
-        return "towards"
-    return "" if is_table else "beside"
-
-
-def _see_inside(kind: str, habitat: str, noun: str) -> str:
-    """A relation as that to what is in it: "fish swim around a bowl", "a ball through a hoop"."""
-    if kind == "around" and habitat == "water" and noun in nouns_with("see-through"):
-        return "in"
-    return "into" if kind == "through" and noun in trait_values("rim") else kind
-
-
-def _use(thing: Mapping[str, Any], noun: str) -> str:
-    """Relation to what is used in an act: "pours milk into a cup"; "" = it is not."""
-    props = [prop for one in thing["motions"] for prop in list_props(one["kind"])]
-    used = [one.anchor for one in props if noun in one.nouns]
-    return "beside" if "ground" in used else "hold" if used else ""
-
-
-def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> str:
-    """The relation that is meant, which depends on what stands in it; "" = none."""
-    thing, noun = draft.things[index], draft.things[other]["noun"]
-    kind = _see_inside(kind, draft.nouns[thing["noun"]].habitat, noun)
-    if kind in WAYS:
-        return _choose_way(draft, kind, index, other)
-    ends = [one.get("end_pace") for one in thing["motions"]][-1:]
-    if kind == "front" and ends == [0.0]:
-        return "to"  # "stops in front of a dog", which is in its way
-    does = [one["kind"] for one in thing["motions"]]
-    is_low = does in (["fall"], ["jump"]) and draft.has_top(other)
-    if kind == "from" and (does == ["rise"] or is_low):
-        return "off"
-    if noun in trait_values("belt speed") and kind in ("past", "down"):
-        return kind if draft.can_go(index) else "on"
-    if noun in word_set("things", "worn") and kind in ("in", "with"):
-        return "wear" if thing["noun"] in PERSON_NOUNS | nouns_with("person on a vehicle") else ""
-    if noun in trait_values("circled on") and kind in _ROUND and draft.can_go(index):
-        thing["motions"] = thing["motions"] or [{"kind": "orbit"}]
-        return "around"
-    acts = {one["kind"] for one in thing["relations"]}
-    if near := _choose_near(kind, noun, {*does}, acts):
-        return near
-    if kind == "above" and draft.keeps_to_ground(index):  # no "kicks a ball over a fence"
-        return "on" if noun in nouns_with("way") else ""
-    if kind == "behind" and draft.goes_like(index, other):  # who brakes keeps no pace
-        return "" if "end_pace" in thing["motions"][0] else "follow"
-    return kind

@@ -13,10 +13,9 @@ from texvent.errors import InputError
 from texvent_scenes import read as reader
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.tables import read_table
-from texvent_scenes.read.draft import is_grammar
-from texvent_scenes.read.lexicon import lexicon_of
-from texvent_scenes.read.quantities import read_height, read_quantity, read_stated
-from texvent_scenes.read.tokens import split_prompt
+from texvent_scenes.read.parsing.lexicon import lexicon_of
+from texvent_scenes.read.parsing.quantities import read_height, read_quantity, read_stated
+from texvent_scenes.read.parsing.tokens import split_prompt
 from texvent_scenes.scene_input import list_words, read
 from texvent_scenes.spec.data import checked_scene
 
@@ -57,7 +56,7 @@ def test_any_text_is_read_and_each_content_word_is_in_one_list(text):
     compounds = " ".join(["", *lists[0], *lists[1], ""])  # "face shield"
     for token in split_prompt(text, lexicon_of(None)):
         is_told = token.text in listed or f" {token.text} " in compounds
-        assert token.is_sign or is_grammar(token) or is_told
+        assert token.is_sign or token.is_grammar or is_told
     assert checked_scene(reading.scene, VOCABULARY) == reading.scene
 
 

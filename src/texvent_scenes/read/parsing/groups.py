@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.tables import read_table
-from texvent_scenes.read.lexicon import NounSense, owned_parts, states, word_set
-from texvent_scenes.read.tokens import NO_TOKEN, Token
+from texvent_scenes.read.parsing.lexicon import NounSense, owned_parts, states, word_set
+from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
 
 _HEADS = ("noun", "place", "effect", "pose", "scene")
 """Senses that a noun group may end with."""

@@ -12,9 +12,9 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, read_table, trait_value
-from texvent_scenes.read.groups import is_plural_form
-from texvent_scenes.read.lexicon import NounSense, Sense, word_set
-from texvent_scenes.read.tokens import NO_TOKEN, Token
+from texvent_scenes.read.parsing.groups import is_plural_form
+from texvent_scenes.read.parsing.lexicon import NounSense, Sense, word_set
+from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
 from texvent_scenes.words import list_plurals
 
 _LIVING = frozenset(

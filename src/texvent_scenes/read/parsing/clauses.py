@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from texvent_scenes.read.groups import MODIFIERS, Group, GroupReader, Phrase
-from texvent_scenes.read.lexicon import owned_parts, word_set
-from texvent_scenes.read.tokens import NO_TOKEN, Token
+from texvent_scenes.read.parsing.groups import MODIFIERS, Group, GroupReader, Phrase
+from texvent_scenes.read.parsing.lexicon import owned_parts, word_set
+from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
 
 _IS = ("is", "are", "was", "were")
 

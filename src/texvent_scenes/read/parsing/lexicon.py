@@ -184,9 +184,9 @@ def _list_plain_verbs() -> Iterator[tuple[str, VerbSense]]:
         for verb, kind in ((verb, kind) for kind, verbs in kinds.items() for verb in verbs):
             base, _, pace = verb.partition("*")
             yield base, VerbSense(who, kind, float(pace or 1))
-    for base, senses in words["verbs"].items():
-        for fields in senses if isinstance(senses, list) else [senses]:
-            yield base, VerbSense(**fields)
+    for phrase, said in words["verbs"].items():
+        senses = said if isinstance(said, list) else [said]
+        yield from ((base, VerbSense(**one)) for base, one in product(_expand(phrase), senses))
 
 
 _PERFORMERS = (("person", ACTIVITIES), ("hand", HAND_GESTURES))

@@ -13,7 +13,7 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.tables import read_table
-from texvent_scenes.read.lexicon import (
+from texvent_scenes.read.parsing.lexicon import (
     LONGEST_PHRASE,
     Lexicon,
     Sense,
@@ -22,7 +22,7 @@ from texvent_scenes.read.lexicon import (
     owned_parts,
     word_set,
 )
-from texvent_scenes.read.quantities import (
+from texvent_scenes.read.parsing.quantities import (
     Found,
     list_figures,
     read_height,
@@ -41,6 +41,8 @@ _NUMBER = (
 )
 _WORD = re.compile(_NUMBER + r"|[^\W\d_]+(?:['’][^\W\d_]+)*|[^\W_]|[.,;:!?/()]")
 _OWNER = re.compile(r"['’]s?$")
+_GRAMMAR = ("articles", "pronouns", "conjunctions", "relatives", "style", "purpose", "camera")
+"""Senses of words that a report does not list unless they are lost or shown."""
 _MIXED = re.compile("(?<=[0-9])(?=[¼-¾⅐-⅞])")
 """Between "1" and "½", which NFKC would join to 11/2."""
 
@@ -84,6 +86,12 @@ class Token:
     def is_liquid(self) -> bool:
         """Whether it is seen in nothing but its vessel, or as a place: "a bottle of water"."""
         return self.text in word_set("things", "liquids")
+
+    @property
+    def is_grammar(self) -> bool:
+        """Whether it says nothing by itself: "the", "is", "while", "footage"."""
+        is_order = self.text in word_set("things", "order")
+        return (self.has(*_GRAMMAR) and not is_order) or self.text in word_set("things", "grammar")
 
     def all(self, kind: str) -> tuple[Sense, ...]:
         """Senses of a kind."""

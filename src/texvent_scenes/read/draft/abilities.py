@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from texvent_scenes.models.activities import (
@@ -18,8 +18,8 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.people.outfit import CLOTHES, list_props
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
-from texvent_scenes.read.lexicon import VerbSense, word_set
-from texvent_scenes.read.tokens import Token
+from texvent_scenes.read.parsing.lexicon import VerbSense, word_set
+from texvent_scenes.read.parsing.tokens import Token
 from texvent_scenes.spec.data import ACTED, SENT
 
 MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
@@ -48,20 +48,45 @@ class Abilities:
     nouns: Mapping[str, Noun]
     things: list[dict[str, Any]]
 
+    def noun(self, index: int) -> Noun:
+        """The noun of an object."""
+        return self.nouns[self.things[index]["noun"]]
+
+    def names(self, indices: Iterable[int]) -> set[str]:
+        """Nouns of objects."""
+        return {self.things[index]["noun"] for index in indices}
+
+    def does(self, indices: Iterable[int]) -> set[str]:
+        """Motions of objects."""
+        return {one["kind"] for index in indices for one in self.things[index]["motions"]}
+
+    def acts(self, indices: Iterable[int]) -> set[str]:
+        """Relations of objects, such as what they do to others."""
+        return {one["kind"] for index in indices for one in self.things[index]["relations"]}
+
+    def find(self, names: Collection[str]) -> list[int]:
+        """Objects of some nouns."""
+        return [index for index, one in enumerate(self.things) if one["noun"] in names]
+
+    def add(self, name: str, count: int = 1, **fields: Any) -> int:
+        """Add an object; its index."""
+        own = {"noun": name, "motions": [], "relations": [], "count": count, **fields}
+        self.things.append(own)
+        return len(self.things) - 1
+
     def can_go(self, index: int) -> bool:
         """Whether an object can go from place to place by itself."""
-        return self.nouns[self.things[index]["noun"]].speed_m_s > 0.0
+        return self.noun(index).speed_m_s > 0.0
 
     def goes(self, index: int) -> bool:
         """Whether an object is said to go somewhere, by itself or as what it rides."""
-        kinds = {one["kind"] for one in self.things[index]["motions"]}
-        return bool(kinds & {*MEANS, "move", "roll", "slide", "crawl"})
+        return bool(self.does([index]) & {*MEANS, "move", "roll", "slide", "crawl"})
 
     def is_swung(self, index: int) -> bool:
         """Whether an object is on a swing."""
         relations = [one for one in self.things[index]["relations"] if one["kind"] == "on"]
-        seats = [self.things[n]["noun"] for one in relations for n in one["to"]]
-        return bool({*seats} & nouns_with("swings"))
+        seats = self.names(n for one in relations for n in one["to"])
+        return bool(seats & nouns_with("swings"))
 
     def list_lit(self, index: int) -> list[int]:
         """An object and those with lamps on or below it: candles of a cake go out with its own."""
@@ -81,16 +106,16 @@ class Abilities:
 
     def walks(self, index: int) -> bool:
         """Whether an object is a person or an animal on feet."""
-        return self.nouns[self.things[index]["noun"]].motion == "walk"
+        return self.noun(index).motion == "walk"
 
     def rises(self, index: int) -> bool:
         """Whether an object that is let go rises, as a balloon does, or flies away."""
-        noun = self.nouns[self.things[index]["noun"]]
+        noun = self.noun(index)
         return noun.habitat == "air" and noun.name not in nouns_with("sinks in air")
 
     def is_light(self, index: int) -> bool:
         """Whether an object is small enough to be thrown, as no wall is."""
-        model = self.nouns[self.things[index]["noun"]].build(colour=None, scale=1.0, seed=0)
+        model = self.noun(index).build(colour=None, scale=1.0, seed=0)
         return max(model.length, model.width, model.height) <= _THROWN_M
 
     def fits(
@@ -118,9 +143,9 @@ class Abilities:
             needs_body = verb.relation in word_set("things", "of_bodies")  # no hand bends down
             is_acting &= not needs_body or names <= PERSON_NOUNS
             needs_hands &= verb.relation != "hold" or not self._has_mouths(subjects, objects)
-            is_moved = verb.object != "work" or {self.things[n]["noun"] for n in objects} <= swings
+            is_moved = verb.object != "work" or self.names(objects) <= swings
             is_moved &= verb.object not in TIMED or all(
-                verb.object in self.nouns[self.things[n]["noun"]].acts for n in objects
+                verb.object in self.noun(n).acts for n in objects
             )
             is_moved &= verb.relation not in _ALONG or all(map(self.can_go, subjects))
             is_moved &= verb.relation != "knock over" or not any(map(self.walks, objects))
@@ -141,9 +166,9 @@ class Abilities:
 
     def names_tool(self, subjects: Sequence[int], words: Sequence[Token]) -> bool:
         """Whether words name what is drawn with an act: "chops wood with an axe"."""
-        kinds = {each["kind"] for one in subjects for each in self.things[one]["motions"]}
-        does = {each["kind"] for one in subjects for each in self.things[one]["relations"]}
-        kinds |= {name for name, one in ACTIVITIES.items() if one.reach_m and "hit" in does}
+        kinds = self.does(subjects)
+        is_hit = "hit" in self.acts(subjects)
+        kinds |= {name for name, one in ACTIVITIES.items() if one.reach_m and is_hit}
         tools = {part for kind in kinds for prop in list_props(kind)
                  for part in (prop.name, prop.name.rpartition(" ")[2])}  # fmt: skip
         return bool(words) and all(one.text in tools and not one.has("noun") for one in words)
@@ -151,9 +176,9 @@ class Abilities:
     def _has_mouths(self, subjects: Sequence[int], objects: Sequence[int]) -> bool:
         """Whether animals have small things in their mouths."""
         small = nouns_with("in hand or on something") | nouns_with("in a mouth")
-        names = {self.things[one]["noun"] for one in subjects}
+        names = self.names(subjects)
         is_animal = not names & (PERSON_NOUNS | HAND_NOUNS) and all(map(self.walks, subjects))
-        return is_animal and {self.things[one]["noun"] for one in objects} <= small
+        return is_animal and self.names(objects) <= small
 
     def _acts_on(self, verb: VerbSense, names: set[str], objects: Sequence[int]) -> bool:
         """Whether nouns can do an act, and it can be done to these objects."""
@@ -161,7 +186,7 @@ class Abilities:
         if verb.who == "animal":
             is_able = all(verb.kind in self.nouns[one].acts for one in names)
         upon = nouns_upon(verb.kind)
-        return is_able and bool(objects) and {self.things[one]["noun"] for one in objects} <= upon
+        return is_able and bool(objects) and self.names(objects) <= upon
 
     def _is_able(
         self, verb: VerbSense, subjects: Sequence[int], objects: Sequence[int], has_object: bool
@@ -229,3 +254,39 @@ class Abilities:
         """Whether subjects move objects already: what they do then is not shown."""
         said = (one for index in subjects for one in self.things[index]["relations"])
         return any(one["kind"] in ACTED and {*one["to"]} & {*objects} for one in said)
+
+    def has_top(self, index: int) -> bool:
+        """Whether an object stays, so that others may rise, jump or fall from on top of it."""
+        noun = self.things[index]["noun"]
+        is_low = trait_value("climbed", noun) is None and noun not in nouns_with("towering")
+        return self.nouns[noun].habitat in ("fixed", "ground") and is_low
+
+    def list_held(self, owners: Sequence[int]) -> Iterator[int]:
+        """Objects that some hold or wear."""
+        for relation in (one for owner in owners for one in self.things[owner]["relations"]):
+            yield from relation["to"] if relation["kind"] in ("wear", "hold") else ()
+
+    def place_by(self, index: int) -> str:
+        """Relation of those who are where an object is: "a sofa where a girl reads"."""
+        noun = self.things[index]["noun"]
+        if noun in word_set("things", "tables"):
+            return "at"
+        return "on" if noun in nouns_with("seat") | nouns_with("way") else "beside"
+
+    def is_many(self, indices: Sequence[int]) -> bool:
+        """Whether objects are several bodies: "them"."""
+        return sum(int(self.things[index]["count"]) for index in indices) > 1
+
+    def goes_like(self, index: int, other: int) -> bool:
+        """Whether an object goes, and another may go the same way: "drives behind a truck"."""
+        goes, motions = {*MEANS, "move"}, self.things[index]["motions"]
+        is_going = bool(motions) and motions[0]["kind"] in goes
+        same = self.noun(index).motion == self.noun(other).motion
+        is_led = self.does([other]) <= goes and not self.things[other].get("is_lost")
+        return is_going and same and self.can_go(other) and is_led
+
+    def keeps_to_ground(self, index: int) -> bool:
+        """Whether an object goes on the ground, and does nothing in the air or in water now."""
+        does = {*self.does([index]), self.things[index].get("deed")}
+        free = does & word_set("things", "off_ground")
+        return self.noun(index).motion in ("walk", "drive") and not free

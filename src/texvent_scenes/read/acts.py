@@ -1,0 +1,183 @@
+"""Acts of things: the sense of a verb that they can do, and what they do by it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import cache
+
+from texvent_scenes.models.activities import ANIMAL_ACTIVITIES, DONE_SEATED, HAND_NOUNS, TIMED
+from texvent_scenes.models.people.outfit import list_props
+from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
+from texvent_scenes.read.draft.motions import BLINK_HZ, add_motion
+from texvent_scenes.read.draft.scene_draft import SceneDraft
+from texvent_scenes.read.outcomes import EGO, can_arrive, claim_act, meet
+from texvent_scenes.read.parsing.lexicon import VerbSense, word_set
+from texvent_scenes.read.parsing.tokens import Token
+from texvent_scenes.read.relations import bear_on, lead_on, relate_one, ridden_by
+from texvent_scenes.spec.data import SENT, WAYS
+from texvent_scenes.words import list_verb_forms
+
+_KICKED = nouns_with("kicked or thrown")
+_SWITCHED = ("on", "off")
+
+
+def perform(
+    draft: SceneDraft,
+    verb: Token,
+    subjects: Sequence[int],
+    objects: Sequence[int],
+    *,
+    has_object: bool,
+) -> list[int] | None:
+    """Apply the first sense that the subjects can do; who moves, or None: there is none."""
+    has_object = has_object or bool(objects)
+    act = _choose_act(draft, verb, subjects, objects, has_object=has_object)
+    if act is None or (has_object and not objects and act.who in ("plain", "body")):
+        return None  # what it is done to is not known
+    draft.show(verb)
+    for index in objects if act.relation == "hit" else ():
+        _choose_ball(draft, subjects, index)
+    if act.brings not in ("", EGO) and not objects:
+        objects = [draft.add(act.brings)]
+    if act.end_pace == 0.0 and act.kind == "stand" and can_arrive(draft, subjects):
+        act = replace(act, kind="move", is_near=False)  # it goes until it stops
+    is_change = act.kind == "stand" or verb.text.endswith(" down")  # is drawn after another
+    if act.is_near and not (is_change and draft.things[subjects[0]]["motions"]):
+        draft.mark(verb, act.kind or act.relation or "")
+    for index in subjects:
+        _do(draft, act, verb, index)
+        claim_act(draft, act, verb, index, objects)
+    for index in objects:
+        add_motion(draft.things[index], VerbSense(kind=act.object))
+        _switch(draft, act.object, index)
+        draft.claim(verb, "activity", act.object, [index] if act.object in TIMED else [])
+    if not objects:
+        meet(draft, act, verb, subjects)
+    for index in subjects if act.relation is not None else ():
+        _relate_act(draft, act.relation or "", verb, index, objects)
+    return list(objects if act.object and objects else subjects)
+
+
+def _relate_act(
+    draft: SceneDraft, kind: str, verb: Token, index: int, objects: Sequence[int]
+) -> None:
+    """Relate who acts to what the act is about, on a way that the staged scene holds."""
+    who = ridden_by(draft, index, kind)
+    about = draft.names(objects)
+    if kind == "follow" and about & nouns_with("runs on"):
+        kind = "past"  # "follows a pipe"
+    if kind == "lead":
+        return lead_on(draft, verb, index, objects)
+    if kind == "load":
+        return bear_on(draft, verb, index, objects)
+    is_left = kind == "out of" and bool(objects) and relate_one(draft, kind, who, objects)
+    if (is_left or draft.relate(who, kind, objects)) and kind in WAYS:
+        way = draft.things[who]["relations"][-1]["kind"]  # from a stop, along a platform
+        draft.claim(verb, "relation", way, [who], objects)
+
+
+def _switch(draft: SceneDraft, state: str, index: int) -> None:
+    """Switch the lamp of what an act lights or puts out."""
+    if state in _SWITCHED:
+        draft.things[index]["motions"].pop()
+        draft.switch(state, index)
+
+
+def _choose_act(
+    draft: SceneDraft,
+    verb: Token,
+    subjects: Sequence[int],
+    objects: Sequence[int],
+    *,
+    has_object: bool,
+) -> VerbSense | None:
+    """The first sense of a verb that the subjects can do."""
+    acts = [one.value for one in verb.all("verb") if subjects]
+    if verb.text in _list_performing():
+        done = {draft.things[one].get("deed", "") for one in subjects} - {""}
+        acts[:0] = [VerbSense("person", one) for one in done]
+    tools = [one for one in acts if one.who == "person" and _list_tools(one.kind)]
+    if act := _act_as_person(draft, tools, subjects, objects, has_object=has_object):
+        return act
+    act = next((one for one in acts if draft.fits(one, subjects, objects, has_object)), None)
+    act = act or _act_as_person(draft, acts, subjects, objects, has_object=has_object)
+    is_sent = act is None and not has_object and _are_sent(draft, verb, subjects)
+    return VerbSense(kind="throw") if is_sent else act
+
+
+def _are_sent(draft: SceneDraft, verb: Token, subjects: Sequence[int]) -> bool:
+    """Whether balls are struck by who is not said: "a shuttlecock smashed at the camera"."""
+    is_struck = any(one.value.relation in SENT for one in verb.verbs("ed"))
+    nouns = draft.names(subjects)
+    return is_struck and bool(nouns) and nouns <= trait_values("struck with").keys() | _KICKED
+
+
+def _choose_ball(draft: SceneDraft, subjects: Sequence[int], index: int) -> None:
+    """Take the ball of who is named by a sport: "a golfer hits a ball"."""
+    thing = draft.things[index]
+    for deed in (draft.things[one].get("deed") for one in subjects):
+        if deed and thing["noun"] == "ball":
+            thing["noun"] = trait_value("ball of", deed) or thing["noun"]
+            draft.things[subjects[0]]["motions"] = [{"kind": deed}]
+
+
+def _act_as_person(
+    draft: SceneDraft, acts: Sequence[VerbSense], subjects: Sequence[int],
+    objects: Sequence[int], *, has_object: bool,
+) -> VerbSense | None:  # fmt: skip
+    """An act of people that hands or their tools do: "hands typing", "a pen writing"."""
+    things = [draft.things[one] for one in subjects]
+    acts = [one for one in acts if one.who == "person"]
+    if not all(one["noun"] in HAND_NOUNS for one in things):
+        acts = [act for act in acts if {one["noun"] for one in things} <= _list_tools(act.kind)]
+    if not (things and acts):
+        return None
+    said = [(one["noun"], one["count"]) for one in things]
+    for one in things:
+        one |= {"noun": "person", "count": 1}
+    for act in acts:
+        if draft.fits(act, subjects, objects, has_object):
+            return act
+    for one, (noun, count) in zip(things, said, strict=True):
+        one |= {"noun": noun, "count": count}
+    return None
+
+
+def _do(draft: SceneDraft, act: VerbSense, verb: Token, index: int) -> None:
+    """Let an object do it; a flame burns and flickers by itself."""
+    thing = draft.things[index]
+    if act.kind == "move" and draft.last.goes_on and ridden_by(draft, index, "past") != index:
+        return  # it is ridden on: "rides a bicycle, passing a car"
+    if thing["noun"] in nouns_with("flows") and act.kind in word_set("effects", "motions"):
+        return  # its water does so
+    if act.who not in ("source", "lamp"):
+        before = [one["kind"] for one in thing["motions"]]
+        add_motion(thing, act, goes_on=draft.last.goes_on)
+        if (row := ANIMAL_ACTIVITIES.get(act.kind)) and row.effect:
+            draft.add_effect(verb, row.effect, [index])
+        is_seated = before[-1:] in (["sit"], ["lie"]) and act.kind in {*DONE_SEATED, "type"}
+        is_later = draft.last.goes_on and verb.verbs("ing") and len(thing["motions"]) > len(before)
+        is_end = act.kind == "break"  # of a fall: "falls, shattering"
+        if is_later and before and not (is_seated or is_end):
+            draft.mark(verb, f"then {act.kind}")  # "walks, waving": not at once
+    elif act.who == "lamp" and act.kind in _SWITCHED:
+        draft.switch(act.kind, index)
+    elif thing["noun"] not in word_set("things", "flames"):
+        if act.who == "lamp":
+            thing["blink_hz"] = BLINK_HZ
+        else:
+            draft.add_effect(verb, act.kind, [index])
+
+
+def _list_tools(activity: str) -> set[str]:
+    """Nouns that a person has in hand in an act."""
+    props = (one for one in list_props(activity) if one.anchor.endswith("hand"))
+    return {noun for prop in props for noun in prop.nouns}
+
+
+@cache
+def _list_performing() -> frozenset[str]:
+    """Forms of verbs for an act that a person does anyway: "plays", of a violinist."""
+    verbs = word_set("things", "performing")
+    return frozenset(form for verb in verbs for form, _ in list_verb_forms(verb))

@@ -1,0 +1,243 @@
+"""Draft of a scene: objects, effects and moves of the camera so far, and the fate of each word."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from texvent_scenes.description import Claim
+from texvent_scenes.models.places import is_room
+from texvent_scenes.models.protocol import Noun
+from texvent_scenes.models.tables import nouns_with, read_table
+from texvent_scenes.read.draft.abilities import Abilities
+from texvent_scenes.read.draft.motions import split_move, turn_by
+from texvent_scenes.read.parsing.lexicon import Sense, word_set
+from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
+from texvent_scenes.spec.data import PLACING
+
+_SAID_TWICE = ("travel", "handheld", "static")
+"""Moves of which a verb says what a shot is: "handheld camera shaking"."""
+_NEAR = 3
+"""Words from an effect to what it comes from: "smoke is rising from a chimney"."""
+
+
+@dataclass
+class Last:
+    """What the sentence spoke of last, to which its next words refer."""
+
+    nearest: list[int] = field(default_factory=list)
+    """Objects of the last noun group."""
+    before: list[int] = field(default_factory=list)
+    """Those before the rest of the clause: "passes a bench and sits on it"."""
+    where: list[int] = field(default_factory=list)
+    """Objects of the last group before the clause: "under a bridge as a train crosses it"."""
+    subjects: list[int] = field(default_factory=list)
+    """Objects that the last clause was about."""
+    earlier: list[int] = field(default_factory=list)
+    """Objects that the clause before that one was about: "behind her"."""
+    acted: list[int] = field(default_factory=list)
+    """Objects of the last verb that had some: "picks up an apple from a bowl, puts it down"."""
+    verb: Token | None = None
+    """The last verb: "then right", "then a truck" say no other."""
+    has_verb: bool = False
+    """Whether the clause has a verb: "is repairing it with a wrench"."""
+    is_then: bool = False
+    """Whether it happens after what was said before: "then"."""
+    goes_on: bool = False
+    """Whether it happens while all that was said of its subjects before."""
+    is_lost: bool = False
+    """Whether the last clause was about several things that are not known."""
+    was_camera: bool = False
+    """Whether it was about the camera."""
+
+
+@dataclass
+class SceneDraft(Abilities):
+    """Scene that is being read; clauses are applied one after the other."""
+
+    tokens: Sequence[Token]
+    nouns: Mapping[str, Noun]
+    last: Last = field(default_factory=Last)
+    things: list[dict[str, Any]] = field(default_factory=list)
+    """Fields of objects, whose relations are to indices of others; "is_lost" if what it does is
+    not known, "deed" if its word tells what it does, "word" as it was named."""
+    moves: list[dict[str, Any]] = field(default_factory=list)
+    phase: int = 0
+    """Phase of moves of the camera: those said after "then" follow."""
+    phases: int = 0
+    """Times that "then" was said: effects begin in that phase, light and weather do not change."""
+    effects: list[dict[str, Any]] = field(default_factory=list)
+    """Effects, each with the index of its source."""
+    absent: list[str] = field(default_factory=list)
+    parts: dict[str, dict[str, Any]] = field(
+        default_factory=lambda: {"camera": {}, "light": {}, "place": {}}
+    )
+    """Fields of the camera, the light and the place."""
+    claims: dict[int, list[Claim]] = field(default_factory=dict)
+    """Number of a token → what is claimed of it."""
+    _effect_at: int = 0
+    """Number of the token of the last effect."""
+    quantities: dict[tuple[int, str], float] = field(default_factory=dict)
+    """Index of an object and a quantity that is said of it → its value."""
+    left: list[int] = field(default_factory=list)
+    """Object from which one was parted last."""
+    fates: dict[int, str] = field(default_factory=dict)
+    """Number of a token → "lost", "shown", or the noun that it is shown as; "" = told with another
+    one."""
+    compounds: dict[int, str] = field(default_factory=dict)
+    """Number of a token → the compound of which it is the head, and which is shown as it."""
+    homes: list[tuple[Token, Token, str]] = field(default_factory=list)
+    """Places before names of those who go anywhere, as of "a street cat"; their nouns."""
+
+    def show(self, *tokens: Token) -> None:
+        """Count tokens as shown, unless they are lost or shown as something else."""
+        for one in tokens:
+            self.fates.setdefault(one.at, "shown")
+
+    def mark(self, token: Token, fate: str) -> None:
+        """Count a token as "lost", or as shown by a noun."""
+        self.fates[token.at] = fate
+
+    def shows(self, token: Token) -> bool:
+        """Whether a token is shown, as itself or as something else."""
+        return self.fates.get(token.at, "lost") != "lost"
+
+    def claim(
+        self, token: Token, kind: str, value: str | float, subjects: Sequence[int | None],
+        targets: Sequence[int] = (),
+    ) -> None:  # fmt: skip
+        """Leave it to the staged scene whether a word is shown of all subjects."""
+        said = [Claim(token.text, kind, value, one, tuple(targets)) for one in subjects]
+        self.claims |= {token.at: [*self.claims.get(token.at, ()), *said]} if said else {}
+
+    def relate(self, subject: int, kind: str, targets: Sequence[int]) -> bool:
+        """Add a relation of an object to others; False: it has none, or goes round in a circle."""
+        is_one = self.things[subject]["count"] == 1
+        if not targets or (subject in targets and is_one):
+            return False
+        if kind in PLACING and any(self._stands_by(target, subject) for target in targets):
+            return False
+        is_alongside = self.things[targets[0]]["noun"] in nouns_with("alongside")
+        if is_alongside and kind in ("to", "at", "towards"):  # "arrives at a platform"
+            for motion in self.things[subject]["motions"][-1:]:
+                motion["end_pace"] = 0.0
+            kind = "beside"
+        ways = {"out of": "from", "through": "past"} if is_alongside else {}
+        kind = ways.get(kind, kind)  # a train goes through a station along its platform
+        is_seat = self.things[targets[0]]["noun"] in nouns_with("works on demand")
+        kind = "on" if kind == "ride" and is_seat else kind  # "rides a swing"
+        self.things[subject]["relations"].append({"kind": kind, "to": tuple(targets)})
+        return True
+
+    def _stands_by(self, subject: int, other: int) -> bool:
+        """Whether where an object stands depends on where another one does."""
+        relations = [one for one in self.things[subject]["relations"] if one["kind"] in PLACING]
+        return subject == other or any(
+            self._stands_by(target, other) for one in relations for target in one["to"]
+        )
+
+    def set_scene(self, token: Token, things: Sequence[Any] = ()) -> bool:
+        """Apply a word of light, weather, place or camera; of things, "wet" is theirs alone."""
+        if things and token.text in word_set("things", "own"):
+            return False
+        for sense in token.all("shot"):
+            self.add_move({**split_move(sense.value), **self._pace_before(token)})
+        said = [sense.value for sense in token.all("scene")]
+        if self.phases and any(part in ("light", "place") for part, _, _ in said):
+            return False  # "then it rains"
+        if self._leaves_place(token):
+            self.mark(token, "lost")
+            return True
+        for part, name, value in said:
+            if name == "name" and value in ("sky", "indoor") and self.parts[part].get(name):
+                continue  # "in a kitchen, indoors"
+            if value != "day" or name not in self.parts[part]:  # "overcast daylight"
+                self.parts[part][name] = value
+        is_near = token.text.split()[0] in word_set("things", "nearest")
+        self.claim(token, "macro", "", [None] if is_near else [])
+        is_said = token.has("shot", "scene")
+        self.show(*([token] if is_said else []))
+        return is_said
+
+    def _leaves_place(self, token: Token) -> bool:
+        """Whether a phrase names another place than the one that is said: "dives under water"."""
+        said = [sense.value[2] for sense in token.all("scene") if sense.value[1] == "name"]
+        name = self.parts["place"].get("name", "")
+        if not (said and name) or name in said or token.text == "underwater":
+            return False
+        return said != ["sky"] and not (is_room(said[0]) and is_room(name))
+
+    def _pace_before(self, token: Token) -> dict[str, Any]:
+        """The pace that the word before says, if of nothing else: "fast yaw rotation"."""
+        before = self.tokens[token.at - 1] if token.at else NO_TOKEN
+        name, value = (before.first("adverb") or Sense("", ("", ""))).value
+        if name != "pace" or self.shows(before):
+            return {}
+        self.show(before)
+        return {"pace": value}
+
+    def add_move(self, move: dict[str, Any]) -> None:
+        """Add a move of the camera; what flies is seen from the air."""
+        phase = {"phase": self.phase} if self.phase else {}
+        kind = move["kind"]
+        same = [one for one in self.moves if one["kind"] == kind and kind in _SAID_TWICE]
+        if same and same[-1].get("phase", 0) == self.phase:  # "a dashcam driving at 20 m/s"
+            same[-1].update(move)
+        else:
+            self.moves.append({**move, **phase})
+        if move.get("means") == "fly":
+            self.parts["camera"].setdefault("view", "aerial")
+
+    def set_journey(self, name: str, value: Any) -> bool:
+        """Set a speed or a rate of the camera's last move that has one; False: none has."""
+        moves = [one for one in self.moves if turn_by(one, name, value) != one]
+        for one in moves[-1:]:
+            one.update(turn_by(one, name, value))
+        return bool(moves)
+
+    def take_in_mouth(self, index: int) -> None:
+        """Let an animal hold what it is with: "a dog with a stick in its mouth"."""
+        for relation in self.things[index]["relations"]:
+            relation["kind"] = "hold" if relation["kind"] == "with" else relation["kind"]
+
+    def may_come_from(self, token: Token) -> bool:
+        """Whether a preposition says of what the last effect comes: no "burning house" before."""
+        return self.effects[-1]["source"] is None or token.at - self._effect_at <= _NEAR
+
+    def add_effect(self, token: Token, kind: str, owners: Sequence[int] = ()) -> None:
+        """Add an effect, which comes from the first of the owners."""
+        phase = {"phase": self.phases} if self.phases else {}
+        self.effects.append({"kind": kind, "source": owners[0] if owners else None, **phase})
+        self._effect_at = token.at
+        self.show(token)
+
+    def show_inherent(self, tokens: Sequence[Token], name: str) -> None:
+        """Show modifiers of what is so anyway, "a round plate", and other names of a noun."""
+        true_of = read_table("words", "read")["inherent"]
+        self.show(*(one for one in tokens if name in true_of.get(one.text, ())))
+        for token in tokens:
+            same = [one.value for one in token.all("noun") if one.value.noun == name]
+            if same:
+                self.mark(token, name if same[0].is_kind else "shown")
+
+    def name_kind(self, words: Sequence[Token], head: Token, noun: str) -> None:
+        """Report a compound that is shown as its head: "a face shield" as a shield."""
+        before = self.tokens[head.at - 1] if head.at else NO_TOKEN
+        is_noun = before.has("noun", "place") or not before.text.endswith(
+            (*word_set("things", "adjective_ends"),)
+        )
+        is_noun &= before.is_unknown or before.has("noun", "place") or bool(before.verbs("base"))
+        no_kinds = word_set("things", "adjectives") | word_set("things", "masses")  # "a glass pot"
+        is_noun &= before.text.isalpha() and before.text not in no_kinds
+        if is_noun and before in words and not self.shows(before):
+            if before.has("place") and self.nouns[noun].speed_m_s:
+                self.homes.append((before, head, noun))  # "a street cat"
+            else:
+                self.merge_compound(before, head, noun)
+
+    def merge_compound(self, before: Token, head: Token, noun: str) -> None:
+        """Report two words as one, which is shown as a noun."""
+        self.compounds[head.at] = f"{before.text} {head.text}"
+        self.mark(before, "")
+        self.mark(head, noun)

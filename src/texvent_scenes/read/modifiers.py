@@ -1,0 +1,214 @@
+"""Adjectives, adverbs and participles: what they say of things."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from texvent_scenes.colours import SURFACES
+from texvent_scenes.description import SEEN
+from texvent_scenes.models.activities import ACTIVITIES
+from texvent_scenes.models.effects import LAMPS
+from texvent_scenes.models.materials import has_colour
+from texvent_scenes.models.protocol import Pose
+from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.read.acts import perform
+from texvent_scenes.read.draft.abilities import MEANS
+from texvent_scenes.read.draft.copies import part_off, part_ways
+from texvent_scenes.read.draft.motions import add_motion, set_field
+from texvent_scenes.read.draft.scene_draft import SceneDraft
+from texvent_scenes.read.parsing.groups import Group
+from texvent_scenes.read.parsing.lexicon import Sense, VerbSense, states, word_set
+from texvent_scenes.read.parsing.tokens import Token
+from texvent_scenes.read.prepositions import set_before
+
+_IN_WIND = frozenset({"sway", "fly", "float", "hover", "sail"})
+"""Motions in which the wind shows."""
+_REPEATED = {name: one.repeats_hz for name, one in ACTIVITIES.items()}
+_QUANTITIES = ("rate_hz", "turns_hz", "blink_hz")
+"""Fields of which each object has one."""
+_MEANT = {"circle": ("orbit", (*MEANS, "move", "orbit")), "stays": ("spin", ("turn",))}
+"""Adverbs → the motion that some motions are by them: "turns on the spot"."""
+_ASIDE = ("left", "right", "across", "towards", "away")
+"""Directions in which what hovers leaves its place."""
+
+
+def say_modifiers(draft: SceneDraft, group: Group, index: int) -> None:
+    """Apply adjectives; "a black and white football" has both colours by itself."""
+    own, noun = list[Token](), draft.things[index]["noun"]
+    fields = ((one, one.first("field")) for one in group.modifiers)
+    colours = {one: said.value[1] for one, said in fields
+               if said is not None and said.value[0] == "colour"}  # fmt: skip
+    bodies = (draft.nouns[noun].build(colour=None, scale=1.0, seed=seed) for seed in range(3))
+    parts = [one.parts(Pose(0.0, 0.0, 0.0, "stand")) for one in bodies if len(colours) > 1]
+    if parts and all(has_colour(each, SURFACES[one]) for each in parts for one in colours.values()):
+        own = [*colours]
+    for token in group.modifiers:
+        if token in own:
+            draft.claim(token, "colour", colours[token], [index])
+            continue
+        if token.text in word_set("things", "rows"):
+            draft.claim(token, "row", "along", [index])
+        if token.text in word_set("things", "heaps"):
+            draft.claim(token, "stack", "", [index])
+        is_side = token.text in ("left", "right")  # "the left ball"
+        draft.show(*([token] if token.has("hollow", "partitive") or is_side else []))
+        draft.things[index] |= {"placement": token.text} if is_side else {}
+        say_word(draft, token, [] if is_side else [index])
+
+
+def say_word(draft: SceneDraft, token: Token, subjects: Sequence[int]) -> None:
+    """Apply an adjective, an adverb, a participle, or a word of the scene."""
+    light = draft.parts["light"]
+    said = token.first("field", "picture", "adverb")
+    field, value = said.value if said is not None else ("", "")
+    subjects = _find_unsaid(draft, field, subjects, draft.last.nearest)
+    things = [draft.things[index] for index in subjects]
+    if field == "distance_m" or _say_at_once(draft, token, field, value, subjects):
+        return
+    if field == "rate_hz" and "flicker_hz" in light and not things:
+        light["flicker_hz"] = value
+    elif field == "picture" and draft.things:
+        (things or draft.things)[-1]["picture"] = vars(value)
+    elif _is_open(draft, field, things):
+        is_told = field in ("colour", *word_set("things", "claimed"))
+        return _claim_adverb(draft, token, field, value, subjects if is_told else [])
+    elif value == "opposite":
+        if not part_ways(draft, subjects):
+            return
+    elif said is not None and things:
+        for index in subjects:
+            _say_field(draft, token, said, index)
+        is_aside = token.text in word_set("things", "aside")
+        draft.claim(token, "aside", "", subjects if is_aside else [])
+        draft.claim(token, "reverse", "", subjects if value == "backward" else [])
+        is_lamp = field == "rate_hz" and all("blink_hz" in one for one in things)
+        draft.claim(token, "shine" if is_lamp else SEEN, "", subjects)
+    else:
+        if not draft.set_scene(token, things) and things and token.verbs("ing", "ed"):
+            perform(draft, token, subjects, [], has_object=False)
+        return
+    draft.show(token)
+
+
+def _claim_adverb(
+    draft: SceneDraft, token: Token, field: str, value: Any, subjects: Sequence[int]
+) -> None:
+    """Leave it to the staged scene whether things do it so, and let them do what it means."""
+    if field == "times":
+        _repeat(draft, value, subjects)
+    meant, kinds = _MEANT.get(field, ("", ()))
+    for motions in (draft.things[index]["motions"] for index in subjects):
+        if motions and motions[-1]["kind"] in kinds:
+            motions[-1]["kind"] = meant
+    said = ("ground", False) if field == "in_air" else (field, value)
+    draft.claim(token, *said, subjects)
+
+
+def _say_at_once(
+    draft: SceneDraft, token: Token, field: str, value: Any, subjects: Sequence[int]
+) -> bool:
+    """Apply a state of what opens, or the speed of a view; a dark tunnel is not painted."""
+    state = states().get(token.text)
+    if field == "colour" and token.text in word_set("things", "shades"):
+        lit = nouns_with("passage") | nouns_with("has a door") | LAMPS.keys()
+        return any(draft.things[n]["noun"] in lit and not draft.can_go(n) for n in subjects)
+    acts = [draft.noun(index).acts for index in subjects]
+    if acts and state and (not field or all(state in one for one in acts)):
+        _set_state(draft, token, subjects)
+        return True
+    if field == "set" and (subjects or draft.last.nearest):
+        return set_before(draft, token, value, subjects or draft.last.nearest)
+    if field == "in_turn" and not subjects and draft.effects:
+        draft.show(*([token] if draft.effects[-1]["kind"] == "drip" else []))
+        return True  # drops fall one by one
+    for one in subjects if field == "in_mouth" else ():
+        draft.take_in_mouth(one)
+    if field == "wind":
+        is_blown = [_blow(draft, index) for index in subjects] or [bool(draft.effects)]
+        draft.show(*([token] if all(is_blown) else []))
+        return True
+    nouns = draft.names(subjects)
+    is_still = nouns <= nouns_with("fits who goes through")  # "a tunnel exit, 60 km/h"
+    is_way = is_still and draft.set_journey(field, value)
+    draft.show(*([token] if is_way else []))
+    return is_way
+
+
+def _blow(draft: SceneDraft, index: int) -> bool:
+    """Let things sway in the wind; whether the wind shows in their motion."""
+    thing, noun = draft.things[index], draft.noun(index)
+    if noun.is_working or {one["kind"] for one in thing["motions"]} & _IN_WIND:
+        return True
+    if noun.habitat == "fixed" or noun.motion == "stand":
+        thing["motions"] = [{"kind": "sway"}]
+    return bool(thing["motions"]) and thing["motions"][-1]["kind"] == "sway"
+
+
+def _set_state(draft: SceneDraft, token: Token, subjects: Sequence[int]) -> None:
+    """Apply an adjective of what opens and closes: "an open door"."""
+    state = states()[token.text]
+    able = [n for n in subjects if state in draft.noun(n).acts]
+    for index in able:
+        add_motion(draft.things[index], VerbSense(kind=state))
+    draft.claim(token, "activity", state, able)
+    draft.show(*([token] if able == [*subjects] else []))
+
+
+def _is_open(draft: SceneDraft, field: str, things: Sequence[Mapping[str, Any]]) -> bool:
+    """Whether a field of things cannot be set: a second colour, a height at rest."""
+    motions = [one for thing in things for one in thing["motions"]]
+    if field == "angle_deg":
+        return True  # a camera turns by it
+    if field == "rate_hz":
+        works = any(draft.nouns[one["noun"]].is_working for one in things)
+        is_lamp = any("blink_hz" in one or one["noun"] in LAMPS for one in things)
+        return not (motions or works or is_lamp)
+    if field == "height_m":  # it is no way either: "seen from 3 m"
+        return not any(
+            one["kind"] in ("fall", "bounce", "hover", "fly", "float") for one in motions
+        )
+    is_set = field in word_set("things", "once") and any(field in one for one in things)
+    return is_set or field in word_set("things", "claimed")
+
+
+def _say_field(draft: SceneDraft, token: Token, said: Sense, index: int) -> None:
+    """Set a field of an object; of a speed also the one that it reaches: "brakes to 2 m/s"."""
+    motions, before = draft.things[index]["motions"], draft.tokens[token.at - 1].text
+    (name, value), end = said.value, motions[-1].get("end_pace") if motions else None
+    if name == "speed_m_s" and end is not None:
+        is_end = before == "to" or (before != "from" and end > motions[-1].get("pace", 1.0))
+        name = "end_m_s" if is_end else name
+    if name == "direction" and motions[-1:] and motions[-1]["kind"] == "hover" and value in _ASIDE:
+        motions[-1]["kind"] = "move"  # "a bubble floats past"
+    set_field(draft.things[index], said.kind, name, value)
+    draft.quantities[index, name] = value
+
+
+def _repeat(draft: SceneDraft, times: Any, indices: Sequence[int]) -> None:
+    """Let objects rest after so many repetitions of what is counted."""
+    acts = [draft.things[index]["motions"] for index in indices]
+    rates = [_REPEATED.get(one[0]["kind"], 0.0) if len(one) == 1 else 0.0 for one in acts]
+    for motions, rate_hz in zip(acts, rates, strict=True) if all(rates) else ():
+        rate_hz *= motions[0].get("pace", 1.0)
+        motions.append({"kind": "stand", "start_s": round(times / rate_hz, 6)})
+
+
+def _find_unsaid(
+    draft: SceneDraft, name: str, indices: Sequence[int], nearest: Sequence[int]
+) -> list[int]:
+    """Objects of which a quantity is said now: no other than before of the same.
+
+    Of "two LEDs at 5 Hz and 9 Hz" the second has it, of "a fan at 5 Hz by a fan at 9 Hz" the
+    nearest one.
+    """
+    if name not in _QUANTITIES or not any((one, name) in draft.quantities for one in indices):
+        return [*indices]
+    free = [one for one in nearest if one not in indices and (one, name) not in draft.quantities]
+    if free:
+        return free
+    own = indices[0]
+    if len(indices) > 1 or draft.things[own]["count"] != 2:
+        return []
+    part_off(draft, own, 1)
+    return [len(draft.things) - 1]

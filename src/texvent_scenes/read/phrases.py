@@ -1,0 +1,197 @@
+"""Phrases with prepositions, and other words after a verb: what they are said of."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from texvent_scenes.models.activities import PERSON_NOUNS
+from texvent_scenes.models.tables import nouns_with, trait_value
+from texvent_scenes.read.camera import is_standpoint
+from texvent_scenes.read.draft.places import names_place
+from texvent_scenes.read.draft.scene_draft import SceneDraft
+from texvent_scenes.read.modifiers import say_word
+from texvent_scenes.read.parsing.groups import Phrase
+from texvent_scenes.read.parsing.lexicon import word_set
+from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
+from texvent_scenes.read.parts import are_own_parts
+from texvent_scenes.read.prepositions import (
+    claim_mutual,
+    claim_relation,
+    dress,
+    find_mutual,
+    find_relation,
+    go_to_place,
+    is_rained_on,
+    keep_distance,
+    names_formation,
+)
+from texvent_scenes.read.relations import hand_over, relate_one
+from texvent_scenes.read.things import name_group
+from texvent_scenes.spec.data import PLACING, SPACED, WAYS
+
+
+def say_after(
+    draft: SceneDraft, after: Sequence[Phrase | Token], subjects: list[int], moved: list[int],
+    told: list[int],
+) -> None:  # fmt: skip
+    """Apply what follows the verb: of "a cup on a plate on a table", the plate is on it."""
+    last = NO_TOKEN
+    for one in after:
+        if isinstance(one, Phrase) and (
+            _hangs_on_unknown(draft, one)
+            or is_standpoint(draft, one)
+            or are_own_parts(draft, one, subjects)
+        ):
+            continue
+        if isinstance(one, Phrase):
+            who = _choose_placed(draft, one, last, subjects, told)
+            told = apply_phrase(draft, one, who, moved) or moved
+            last = one.preposition
+            keep_distance(draft, last, who)
+            _push_with(draft, subjects, who)
+        elif not draft.set_scene(one, told):
+            adverb = one.first("adverb")
+            if one.has("relation") and not one.has("small", "adverb"):  # "close to" the camera
+                draft.mark(one, "lost")
+            say_word(draft, one, told if adverb and adverb.value[0] == "placement" else moved)
+
+
+def _push_with(draft: SceneDraft, subjects: Sequence[int], riders: Sequence[int]) -> None:
+    """Have who is pushed in or on something pushed with it; no swing is pushed."""
+    for index in subjects:
+        for row in [one for one in draft.things[index]["relations"] if one["kind"] == "push"]:
+            below = [one["to"] for n in riders for one in draft.things[n]["relations"]
+                     if one["kind"] in ("in", "on") and n in row["to"]]  # fmt: skip
+            for to in below[:1]:
+                is_swing = draft.things[to[0]]["noun"] in nouns_with("swings")
+                row |= {"kind": "behind" if is_swing else "push", "to": to}
+                if is_swing and draft.last.verb is not None:
+                    draft.mark(draft.last.verb, "lost")
+                    draft.claims.pop(draft.last.verb.at, None)
+
+
+def _hangs_on_unknown(draft: SceneDraft, phrase: Phrase) -> bool:
+    """Whether it is part of what is not known: "a tray with glasses"."""
+    before = draft.tokens[phrase.preposition.at - 1]
+    is_noun = before.is_unknown and not before.text.endswith("ly") and before is not draft.last.verb
+    return phrase.preposition.text == "with" and is_noun
+
+
+def _choose_placed(
+    draft: SceneDraft, phrase: Phrase, last: Token, subjects: list[int], told: list[int]
+) -> list[int]:
+    """Objects of a phrase: of "a cup on a plate on a table" the plate, "next to" one both."""
+    kind, before = (str(one and one.value) for one in
+                    (phrase.preposition.first("relation"), last.first("relation")))  # fmt: skip
+    if kind == "with" and draft.tokens[phrase.preposition.at - 1].has("noun"):
+        others = {draft.things[index]["noun"] for index in {*draft.last.nearest} - {*subjects}}
+        if others and others <= PERSON_NOUNS | word_set("things", "vessels"):
+            return draft.last.nearest  # "passes a man with a suitcase", "carries a tray with cups"
+    if before == "with" and told and kind in PLACING and draft.tokens[last.at - 1].has("place"):
+        return told  # "in a room with candles on the table"
+    if kind == "on" and draft.names(told) <= word_set("things", "flames"):
+        return told or subjects  # "blows out the candles on a cake"
+    kinds = {one["kind"] for index in subjects for one in draft.things[index]["relations"]}
+    if kind in (kinds if subjects else PLACING):
+        return told
+    if all(one.head and names_place(one.head, kind) for one in phrase.groups):
+        return subjects
+    led = [n for index in subjects for one in draft.things[index]["relations"]
+           if one["kind"] in ("push", "pull") for n in one["to"]]  # fmt: skip
+    if kind in ("on", "in") and draft.names(led) & PERSON_NOUNS:
+        return led  # "pushes a man in a wheelchair", which it is pushed with
+    if kind in ("on", "in") and before in SPACED:
+        like = (one for one in subjects if draft.walks(one) == draft.walks(told[0]))
+        return [*dict.fromkeys((*like, *told))]
+    is_passed = before in word_set("things", "passed") | {"into"}
+    return told if kind in PLACING and is_passed else subjects
+
+
+def apply_phrase(
+    draft: SceneDraft, phrase: Phrase, subjects: Sequence[int], moved: Sequence[int]
+) -> list[int]:
+    """Apply a preposition with its groups, and give what they name.
+
+    `moved` are those that the verb moves; "behind them" is said of the nearest group.
+    """
+    token = phrase.preposition
+    kind = find_relation(draft, phrase, subjects)
+    if not phrase.groups or find_mutual(phrase.groups):
+        _relate_back(draft, kind, phrase, subjects)
+        return []
+    if dress(draft, phrase, subjects) or names_formation(draft, phrase, subjects):
+        return []
+    targets = list[int]()
+    owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"
+    for group in phrase.groups:
+        targets += name_group(draft, group, kind or token.text, owners)
+    heads = [group.head for group in phrase.groups if group.head is not None]
+    words = [one for group in phrase.groups for one in (*group.unknown, *group.modifiers)]
+    if not targets:
+        is_place = all(names_place(one, kind or token.text) for one in heads)
+        if is_place and "name" in draft.parts["place"]:
+            go_to_place(draft, token, heads, subjects or draft.last.nearest, moved)
+        elif kind in WAYS or (not owners and any(one.head and one.head.has("effect")
+                                                  for one in phrase.groups)):  # fmt: skip
+            draft.mark(token, "lost")  # "over a flame"
+    elif (
+        (kind == "from" or (kind in ("through", "out of") and _is_spout(draft, targets)))
+        and not subjects
+        and draft.effects
+        and draft.may_come_from(token)
+    ):
+        is_all_over = draft.effects[-1]["kind"] in word_set("things", "all_over")
+        draft.effects[-1]["source"] = None if is_all_over else targets[0]
+        draft.show(token)
+    elif kind and (subjects or kind != "with"):  # "an office with a desk"
+        _relate_all(draft, token, kind, subjects, targets)
+    is_lone = not targets or (kind == "with" and bool(subjects or moved or not draft.last.has_verb))
+    if is_lone and any(map(draft.shows, (*heads, *words))):
+        draft.show(token)
+    return targets
+
+
+def _is_spout(draft: SceneDraft, targets: Sequence[int]) -> bool:
+    """Whether something comes out of a thing below: a nozzle, a funnel."""
+    return trait_value("spout", draft.things[targets[0]]["noun"]) is not None
+
+
+def _relate_all(
+    draft: SceneDraft, token: Token, kind: str, subjects: Sequence[int], targets: Sequence[int]
+) -> None:
+    """Apply a preposition to all that it is said of."""
+    if handled := hand_over(draft, token, kind, subjects, targets):
+        draft.mark(token, handled)
+        return
+    able = () if kind == "route" else subjects
+    placed = [relate_one(draft, kind, index, targets) for index in able]
+    is_so = any(placed) or is_rained_on(draft, token, kind)
+    draft.mark(token, "shown" if is_so else "lost")
+    claim_relation(draft, token, kind, subjects, targets)
+
+
+def _relate_back(draft: SceneDraft, kind: str, phrase: Phrase, subjects: Sequence[int]) -> None:
+    """Apply a preposition with a pronoun: "a dog passes a tree, a man behind it"."""
+    nearest, token = draft.last.nearest, phrase.preposition
+    if phrase.groups:
+        claim_mutual(draft, [token, *find_mutual(phrase.groups)], kind, subjects)
+        return
+    if (before := draft.tokens[token.at - 1]).has("place") and kind == "behind":
+        far = {one.value for one in before.all("place")} & word_set("things", "backdrops")
+        draft.mark(token, "shown" if far and draft.shows(before) else "lost")
+        return  # "with mountains behind it"
+    own = {*subjects, *draft.list_held(subjects)}  # "a man in a coat walks behind it"
+    is_many = draft.tokens[token.at + 1].text == "them" and draft.is_many(draft.last.earlier)
+    is_own = bool(set(nearest) & own) or (is_many and not draft.is_many(nearest))
+    others: Sequence[int] = subjects
+    about: Sequence[int] = draft.last.earlier if is_own else nearest
+    is_fixed = draft.last.where and not any(map(draft.can_go, draft.last.where))
+    if is_own and is_fixed and kind in word_set("things", "bearing"):
+        about = draft.last.where
+    if not is_own and nearest is not draft.last.before:  # "passes a tree, a dog behind it"
+        others, about = nearest, subjects
+    others = others if about and kind not in ("", "route") else []
+    is_so = any([relate_one(draft, kind, one, about) for one in others])
+    is_so |= is_rained_on(draft, token, kind)
+    draft.mark(token, "shown" if is_so else "lost")
+    claim_relation(draft, token, kind, others, about)

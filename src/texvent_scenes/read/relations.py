@@ -1,0 +1,219 @@
+"""Relations of things to each other: those that a scene can have, and that are meant."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from texvent_scenes.models.activities import AIMED, PERSON_NOUNS
+from texvent_scenes.models.anchors import has_rim, takes_in
+from texvent_scenes.models.people.outfit import list_props
+from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
+from texvent_scenes.read.draft.scene_draft import SceneDraft
+from texvent_scenes.read.parsing.lexicon import word_set
+from texvent_scenes.read.parsing.tokens import Token
+from texvent_scenes.spec.data import ACTED, SENT, SPACED, WAYS
+
+_DROPPED = frozenset({"move", "fall", "throw", "roll", "bounce", "sink", "fly", "jump"})
+"""Motions by which small things come into what is open above."""
+_ON_FOOT = frozenset({"climb", "walk", "run", "move"})
+"""Motions of who climbs, as they are said."""
+_RUNNING = frozenset({"slide", "roll", "drive", "move"})
+"""Motions into a body that has no opening: they meet."""
+_ROUND = frozenset({"on", "past", "at", "in", "through", "into"})
+"""Relations to a ring that those who go have along it."""
+_SMALL = nouns_with("in hand or on something")
+_HANDED = {"into": "in", "in": "in", "on": "on", "to": "on", "above": "on"}
+
+
+def relate_one(draft: SceneDraft, kind: str, index: int, targets: Sequence[int]) -> bool:
+    """Relate a thing to others as far as scenes can; whether it is so."""
+    thing, noun = draft.things[index], draft.things[targets[0]]["noun"]
+    if kind == "with" and len(parts := _part_worn(draft, targets)) > 1:
+        return all([relate_one(draft, kind, index, each) for each in parts])
+    if kind == "with" and thing["noun"] in trait_values("circled on"):
+        return all(
+            [
+                draft.relate(one, _choose_relation(draft, "on", one, index), [index])
+                for one in targets
+            ]
+        )
+    if kind == "with":
+        if borne := _bear(draft, index, targets):
+            return all([draft.relate(one, borne, [index]) for one in targets])
+        if noun in nouns_with("towering"):
+            return True  # it stands in the distance
+        if not any(map(draft.can_go, (index, *targets))):
+            return False  # "a vase with roses", "a disc with a dot"
+    if kind == "on" and noun in word_set("things", "peaks"):
+        return False  # its slopes bear nothing
+    targets = [ridden_by(draft, one, kind) for one in targets]  # "behind the rider"
+    used = _use(thing, noun) if kind in ("in", "into", "from", "on") else ""
+    kind = used or _choose_relation(draft, kind, index, targets[0])
+    sat_at = [one["to"] for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
+    if sat_at and draft.nouns[noun].speed_m_s == 0.0:  # "at a table with a laptop"
+        return all([draft.relate(one, "on", sat_at[0]) for one in targets])
+    tops = [one["to"] for one in thing["relations"] if one["kind"] == "on"
+            and draft.things[one["to"][0]]["noun"] in word_set("things", "tables")]  # fmt: skip
+    small = [one for one in targets if draft.things[one]["noun"] in _SMALL
+             and not draft.things[one]["relations"]]  # fmt: skip
+    is_still = all(one["kind"] == "stand" for one in thing["motions"])
+    for one in small if tops and kind in SPACED and is_still else ():
+        draft.relate(one, "on", tops[0])  # "a cup on a table beside a book"
+    return bool(kind) and draft.relate(ridden_by(draft, index, kind), kind, targets)
+
+
+def bear_on(draft: SceneDraft, verb: Token, index: int, objects: Sequence[int]) -> None:
+    """Put things on what carries them: "a robot carrying a box", "a belt carrying bolts"."""
+    for one in objects:
+        draft.things[one]["motions"] = []
+    placed = [relate_one(draft, "on", one, [index]) for one in objects]
+    draft.mark(verb, "shown" if placed and all(placed) else "lost")
+    for one in objects:
+        draft.claim(verb, "relation", "on", [one], [index])
+
+
+def lead_on(draft: SceneDraft, verb: Token, index: int, objects: Sequence[int]) -> None:
+    """Have those who are led come after: "a dog leads a man"."""
+    going = [one for one in objects if draft.can_go(one)]
+    for one in going:
+        draft.things[one]["motions"] = draft.things[one]["motions"] or [{"kind": "move"}]
+    placed = [draft.relate(one, "follow", [index]) for one in going]
+    draft.mark(verb, "shown" if placed and all(placed) else "lost")
+
+
+def hand_over(
+    draft: SceneDraft, token: Token, kind: str, subjects: Sequence[int], targets: Sequence[int]
+) -> str:
+    """Fate of where a machine takes or leaves things: "picks a box off a belt"; "" = it does not.
+
+    The thing is there at first, or at the end; the staged scene tells.
+    """
+    machines = trait_values("gripper").keys()
+    acts = [one for n in range(len(draft.things)) for one in draft.things[n]["relations"]
+            if draft.things[n]["noun"] in machines and one["kind"] in ACTED
+            and (n in subjects or {*one["to"]} & {*subjects})]  # fmt: skip
+    things = [n for one in acts for n in one["to"]]
+    is_taken = kind in ("from", "off", "out of") or (acts[-1:] and acts[-1]["kind"] == "lift")
+    place = "on" if is_taken else _HANDED.get("on" if token.text == "onto" else kind, "")
+    if not (things and place) or not {*targets}.isdisjoint(things):
+        return ""
+    is_so = all([draft.relate(one, place, targets) for one in things])
+    left = ("relation", "into") if place == "in" else ("arrive", place)
+    draft.claim(token, *(("off", "") if is_taken else left), things, targets)
+    return "shown" if is_so else "lost"
+
+
+def ridden_by(draft: SceneDraft, index: int, kind: str) -> int:
+    """Vehicle that goes where its rider goes: "rides a bicycle past a tree"."""
+    relations = draft.things[index]["relations"]
+    ridden = [one["to"][0] for one in relations if one["kind"] == "ride"]
+    is_way = kind in word_set("things", "passed") | {
+        "through",
+        "follow",
+        "overtake",
+        "behind",
+        *WAYS,
+    }
+    return ridden[0] if ridden and is_way else index
+
+
+def _part_worn(draft: SceneDraft, targets: Sequence[int]) -> list[list[int]]:
+    """Things that can be worn, and others: "with glasses and a boy"."""
+    worn = {one for one in targets if draft.things[one]["noun"] in word_set("things", "worn")}
+    parts = [one for one in targets if one in worn], [one for one in targets if one not in worn]
+    return [*filter(None, parts)]
+
+
+def _bear(draft: SceneDraft, index: int, targets: Sequence[int]) -> str:
+    """Relation of what is with something to it: "a horse with a rider", "a tray with glasses"."""
+    bearer, first = draft.things[index]["noun"], draft.things[targets[0]]["noun"]
+    if bearer in nouns_with("see-through"):
+        return "in"
+    if all(map(draft.walks, targets)):
+        is_ridden = bearer in word_set("things", "mounts") and first in PERSON_NOUNS
+        return "ride" if is_ridden else "on" if bearer in nouns_with("seat") else ""
+    if draft.can_go(targets[0]):
+        return ""
+    is_put = bearer in word_set("things", "laden") and first not in nouns_with("seat")
+    return "on" if is_put else "in" if bearer in word_set("things", "vessels") else ""
+
+
+def _use(thing: Mapping[str, Any], noun: str) -> str:
+    """Relation to what is used in an act: "pours milk into a cup"; "" = it is not."""
+    props = [prop for one in thing["motions"] for prop in list_props(one["kind"])]
+    used = [one.anchor for one in props if noun in one.nouns]
+    return "beside" if "ground" in used else "hold" if used else ""
+
+
+def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> str:
+    """The relation that is meant, which depends on what stands in it; "" = none."""
+    thing, noun = draft.things[index], draft.things[other]["noun"]
+    kind = _see_inside(kind, draft.nouns[thing["noun"]].habitat, noun)
+    if kind in WAYS:
+        return _choose_way(draft, kind, index, other)
+    ends = [one.get("end_pace") for one in thing["motions"]][-1:]
+    if kind == "front" and ends == [0.0]:
+        return "to"  # "stops in front of a dog", which is in its way
+    does = [one["kind"] for one in thing["motions"]]
+    is_low = does in (["fall"], ["jump"]) and draft.has_top(other)
+    if kind == "from" and (does == ["rise"] or is_low):
+        return "off"
+    if noun in trait_values("belt speed") and kind in ("past", "down"):
+        return kind if draft.can_go(index) else "on"
+    if noun in word_set("things", "worn") and kind in ("in", "with"):
+        return "wear" if thing["noun"] in PERSON_NOUNS | nouns_with("person on a vehicle") else ""
+    if noun in trait_values("circled on") and kind in _ROUND and draft.can_go(index):
+        thing["motions"] = thing["motions"] or [{"kind": "orbit"}]
+        return "around"
+    acts = {one["kind"] for one in thing["relations"]}
+    if near := _choose_near(kind, noun, {*does}, acts):
+        return near
+    if kind == "above" and draft.keeps_to_ground(index):  # no "kicks a ball over a fence"
+        return "on" if noun in nouns_with("way") else ""
+    if kind == "behind" and draft.goes_like(index, other):  # who brakes keeps no pace
+        return "" if "end_pace" in thing["motions"][0] else "follow"
+    return kind
+
+
+def _choose_way(draft: SceneDraft, kind: str, index: int, other: int) -> str:
+    """The way that is meant, as far as its target has one; "" = none."""
+    thing, noun = draft.things[index], draft.things[other]["noun"]
+    does, is_led = {one["kind"] for one in thing["motions"]}, bool(draft.things[other]["motions"])
+    if kind in ("into", "out of"):
+        is_open = noun in trait_values("opening") or noun in nouns_with("closed")
+        is_open |= kind == "into" and bool(does) and does <= _DROPPED and has_rim(noun)
+        if any(one["kind"] in SENT for one in thing["relations"]):
+            return "towards" if kind == "into" and takes_in(noun) else ""
+        is_met = bool(does & _RUNNING) and draft.nouns[noun].habitat == "fixed"
+        is_met &= trait_value("container", noun) is None
+        other_kind = "from" if kind == "out of" else "collide" if is_met else ""
+        return kind if is_open else other_kind
+    if kind in ("up", "down"):
+        if noun in trait_values("slope"):
+            return "on" if kind == "down" and does != {"bounce"} else kind
+        can_climb = noun in trait_values("climbed") and bool(does) and does <= _ON_FOOT
+        if can_climb and draft.walks(index):
+            thing["motions"][-1]["kind"] = "climb"  # "goes up a tree"
+        return kind if can_climb else ""
+    if kind == "off":
+        return kind if does & {"jump", "fall", "roll", "slide"} else ""
+    acts = {one["kind"] for one in thing["relations"]} & (ACTED - {"push", "pull"})
+    return "towards" if is_led or acts or not draft.goes(index) else kind
+
+
+def _choose_near(kind: str, noun: str, does: set[str], acts: set[str]) -> str:
+    """The relation that "at" means, and "on" of work at a table; "" = none other."""
+    is_table = noun in word_set("things", "tables")
+    if kind != "at":  # "pours water into a glass on a table"
+        return "at" if kind == "on" and is_table and does & word_set("things", "at_tables") else ""
+    if acts & {*SENT} or does & AIMED:
+        return "towards"
+    return "" if is_table else "beside"
+
+
+def _see_inside(kind: str, habitat: str, noun: str) -> str:
+    """A relation as that to what is in it: "fish swim around a bowl", "a ball through a hoop"."""
+    if kind == "around" and habitat == "water" and noun in nouns_with("see-through"):
+        return "in"
+    return "into" if kind == "through" and noun in trait_values("rim") else kind
