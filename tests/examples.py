@@ -10,9 +10,14 @@ def share() -> float:
     return settings.default.max_examples / settings.get_profile("quick").max_examples
 
 
-def one_of() -> int:
+MOST = 48
+"""Rows of a table that a test without rows of its own tries in a brief run."""
+
+
+def one_of(rows: int = 0) -> int:
     """Of how many rows of a table, or states of a run, one is tried; a whole run tries all."""
-    return max(1, round(1 / share()))
+    step = max(1, round(1 / share()))
+    return step if step == 1 else max(step, -(-rows // MOST))
 
 
 def examples(count: int, **options: Any) -> settings:

@@ -42,8 +42,8 @@ def list_kinds() -> Iterator[tuple[str, tuple[str, ...]]]:
     for family in dict.fromkeys(_KINDS.values()):
         for (kind, name), words in found.items():
             if kind == family and name:
-                plurals = {each for one in words for each in list_plurals(one) if each != one}
-                yield family, (name, *(one for one in words if one not in {name, *plurals}))
+                said = {each for one in words for each in list_plurals(one) if each != one} | {name}
+                yield family, (name, *(one for one in words if one not in said))
 
 
 def list_families(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Noun]]:

@@ -1,9 +1,15 @@
-"""Zero is a value: nowhere is a number that may be None taken for "not given" because it is 0."""
+"""Rules of the sources: zero is a value, files are kept, docstrings begin with a noun.
+
+Nowhere is a number that may be None taken for "not given" because it is 0.
+"""
 
 import ast
+import re
 from collections import defaultdict
 from collections.abc import Iterator
 from pathlib import Path
+
+import pytest
 
 ROOT = Path(__file__).parents[2]
 NUMBERS = {"int", "float", "Fraction", "Number", "Seconds", "Hertz", "Metres"}
@@ -20,6 +26,8 @@ WITHOUT_ZERO = {
     "recordings.py": "events_per_image", "reconstruction_factors.py": "clips",
 }  # fmt: skip
 """File → names of numbers in it whose zero is refused at the door, or does mean none."""
+OPENING = re.compile(r"\s*(What|Who|Whose|How|Where|Which|Of)\b")
+"""An interrogative or a genitive, with which no docstring begins."""
 FUNCTIONS = ast.FunctionDef | ast.AsyncFunctionDef
 
 
@@ -45,6 +53,7 @@ def asked(tree: ast.AST) -> Iterator[ast.expr]:
             yield from one.args
 
 
+@pytest.fixture(scope="module")
 def trees() -> dict[Path, ast.Module]:
     places = ROOT / "src", ROOT / "lab" / "src"
     files = [one for place in places for one in sorted(place.rglob("*.py"))]
@@ -72,6 +81,7 @@ def name_of(value: ast.expr) -> str:
 
 def zeros_taken_for_none(tree: ast.Module, fields: set[str]) -> Iterator[tuple[str, int]]:
     """Names of such numbers whose truth is asked, and lines."""
+    given_fields = fields - {"get"}
     for one in asked(tree):
         is_named = not isinstance(one, ast.Name) or isinstance(one, ast.NamedExpr)
         if is_named and name_of(one) in fields:
@@ -80,20 +90,19 @@ def zeros_taken_for_none(tree: ast.Module, fields: set[str]) -> Iterator[tuple[s
         given = (*function.args.posonlyargs, *function.args.args, *function.args.kwonlyargs)
         names = {one.arg for one in given if is_number_or_none(one.annotation)}
         for one in ast.walk(function):
-            if isinstance(one, ast.Assign) and name_of(one.value) in fields - {"get"}:
+            if isinstance(one, ast.Assign) and name_of(one.value) in given_fields:
                 names |= {target.id for target in one.targets if isinstance(target, ast.Name)}
-        for one in asked(function):
+        for one in asked(function) if names else ():
             if isinstance(one, ast.Name) and one.id in names:
                 yield one.id, one.lineno
 
 
-def test_no_number_that_may_be_none_is_asked_for_its_truth():
-    of = trees()
-    fields = numbers_by_name(of)
+def test_no_number_that_may_be_none_is_asked_for_its_truth(trees):
+    fields = numbers_by_name(trees)
     assert len(fields) > 50
     found = [
         f"{path.relative_to(ROOT)}:{line} {name}"
-        for path, tree in of.items()
+        for path, tree in trees.items()
         for name, line in zeros_taken_for_none(tree, fields)
         if name not in WITHOUT_ZERO.get(path.name, "").split()
     ]
@@ -110,3 +119,33 @@ def test_zeros_are_found_where_they_decide():
     }.items():  # fmt: skip
         tree = ast.parse(f"{text}    {line}\n")
         assert bool([*zeros_taken_for_none(tree, {"seed"})]) is is_found, line
+
+
+def test_nothing_replaces_files_unasked(trees):
+    found = []
+    nodes = ((path, one) for path, tree in trees.items() for one in ast.walk(tree))
+    for path, node in nodes:
+        if not isinstance(node, ast.arguments | ast.AnnAssign):
+            continue
+        pairs = list[tuple[str, ast.expr | None]]()
+        if isinstance(node, ast.arguments):
+            names = [one.arg for one in (*node.posonlyargs, *node.args)]
+            pairs += zip((one.arg for one in node.kwonlyargs), node.kw_defaults, strict=True)
+            pairs += zip(names[::-1], node.defaults[::-1], strict=False)
+        if isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
+            pairs.append((node.target.id, node.value))
+        values = [value for name, value in pairs if name == "overwrite"]
+        found += [(path.name, each) for each in values if isinstance(each, ast.Constant)]
+    assert len(found) > 15
+    assert [name for name, each in found if each.value is not False] == []
+
+
+def test_docstrings_begin_with_a_noun(trees):
+    found = [
+        f"{path.relative_to(ROOT)}:{node.lineno}: {text.strip()[:50]}"
+        for path, tree in trees.items()
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Expr) and isinstance(text := getattr(node.value, "value", 0), str)
+        if OPENING.match(text)
+    ]
+    assert found == []
