@@ -33,6 +33,7 @@ from texvent_scenes.checks.relations import Violation, find_violations
 from texvent_scenes.checks.shots import find_misframed
 from texvent_scenes.checks.staged_clip import is_inside
 from texvent_scenes.checks.water import find_wet_and_dry
+from texvent_scenes.checks.worn import find_unworn
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.meanings import list_meanings
 from texvent_scenes.models.tables import nouns_with
@@ -139,6 +140,10 @@ def find_unseen(
     unseen, partly, hidden = unseen | inside_one, partly | inside_one, unseen - partly
     unseen |= {one.targets[0] for one in description.relations if one.subject in hidden
                and one.kind == "wear" and not any(bodies[one.targets[0]])}  # fmt: skip
+    shares = [share * duration_s for share in _INSTANTS]
+    bare = {*find_unworn(scene, description, shares)} - unseen - partly
+    outside += [f"{description.objects[index].noun} (hardly seen)" for index in sorted(bare)]
+    unseen |= bare
     seen = {number: view.at for number, view in views.items()}
     violations = [*_list_words_of(description, unseen, partly)]
     violations += find_unlike(description, scene.actors, scene.missing)

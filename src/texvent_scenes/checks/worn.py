@@ -1,0 +1,61 @@
+"""Worn check: clothes that a body has on, of which the picture shows next to nothing.
+
+Pictures of who wears them in two colours differ where the clothes are seen.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from texvent_scenes.checks.pictures import SmallPictures
+from texvent_scenes.description import SceneDescription
+from texvent_scenes.models.activities import PERSON_NOUNS
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.models.people.outfit import CLOTHES
+from texvent_scenes.models.people.person import dress
+from texvent_scenes.rendered_scene import Colour
+from texvent_scenes.staging.actors import Actor, size_of
+from texvent_scenes.staging.compose import ComposedScene
+
+_DYES: tuple[Colour, Colour] = ((1.0, 0.0, 1.0), (0.0, 1.0, 0.0))
+_LEVELS, _LEAST_SHARE = 12.0, 0.0016
+"""Difference of a pixel between both colours, of 255, and share of the image from which on clothes
+are seen, for half of the clip at least."""
+
+
+def find_unworn(
+    scene: ComposedScene, description: SceneDescription, times: Sequence[float]
+) -> Iterator[int]:
+    """Indices of clothes that are out of view, hidden or tiny for most of the clip."""
+    for one in description.relations:
+        clothes = [n for n in one.targets if description.objects[n].noun in CLOTHES]
+        for index in clothes if one.kind == "wear" else ():
+            pictures = [
+                SmallPictures(
+                    _dyed(scene, one.subject, description.objects[index].noun, dye), times
+                )
+                for dye in _DYES
+            ]
+            shares = [
+                np.mean(np.abs(first - second).max(axis=-1) >= _LEVELS)
+                for first, second in ([each.at(time_s) for each in pictures] for time_s in times)
+            ]
+            if np.median(shares) < _LEAST_SHARE:
+                yield index
+
+
+def _dyed(scene: ComposedScene, subject: int, clothes: str, dye: Colour) -> ComposedScene:
+    """The scene in which those who wear clothes have them on in a colour."""
+
+    def worn(one: Actor) -> Actor:
+        if one.object_index != subject or one.noun.name not in PERSON_NOUNS:
+            return one
+        usual = NOUNS[one.noun.name]
+        scale = size_of(one.model) / size_of(usual.build(colour=None, scale=1.0, seed=0))
+        noun = dress(usual, [(clothes, dye, "")])
+        return replace(one, model=noun.build(colour=None, scale=scale, seed=0))
+
+    return replace(scene, actors=tuple(map(worn, scene.actors)))
