@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
+from texvent_scenes.models.people.outfit import can_be_worn
 from texvent_scenes.read.parsing.groups import MODIFIERS, Group, GroupReader, Phrase
 from texvent_scenes.read.parsing.lexicon import owned_parts, word_set
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
@@ -311,7 +312,7 @@ class _Parser(GroupReader):
             self._take()
             group = self._group()
             is_subject = group.article or group.is_plural
-            is_worn = group.noun is not None and group.noun.noun in word_set("things", "worn")
+            is_worn = group.noun is not None and can_be_worn(group.noun.noun)
             is_subject = is_subject and not (is_worn or self._share_verb((*found, group)))
             if (is_subject and self._is_verb(Clause((group,)))) or self._is_like(preposition):
                 self._at = start
