@@ -11,10 +11,9 @@ from texvent_scenes.read.draft.motions import split_move, turn_by
 from texvent_scenes.read.draft.places import names_place
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.parsing.clauses import Clause
-from texvent_scenes.read.parsing.groups import Phrase
+from texvent_scenes.read.parsing.groups import Phrase, heads_of, nouns_of, words_of
 from texvent_scenes.read.parsing.lexicon import word_set
 from texvent_scenes.read.parsing.tokens import Token
-from texvent_scenes.read.parts import list_words
 
 _STAYING = frozenset({"handheld", "roll", "truck"})
 """Moves of a camera over what it looks at."""
@@ -47,16 +46,16 @@ def is_standpoint(draft: SceneDraft, phrase: Phrase, move: Mapping[str, Any] | N
     preposition, kind = phrase.preposition, (move or {}).get("kind")
     leaves = kind in ("pan", "tilt", "zoom") or (move or {}).get("direction") in ("out", "up")
     is_so = preposition.text.startswith("from") and bool(phrase.groups) and not leaves
-    before = draft.tokens[preposition.at - 1]
+    before = draft.beside(preposition, -1)
     is_view = before.text in word_set("things", "viewed") or before.has("shot")
     if not is_so or (move is None and not is_view):
         return False
-    heads = [one.head for one in phrase.groups if one.head is not None]
+    heads = heads_of(phrase.groups)
     if heads and all(one.has("place") for one in heads):
         return False  # "seen from a beach" is there
-    for token in (preposition, *(one for group in phrase.groups for one in list_words(group))):
+    for token in (preposition, *words_of(phrase.groups)):
         draft.mark(token, "lost")
-    nouns = [one.noun.noun for one in phrase.groups if one.noun is not None]
+    nouns = nouns_of(phrase.groups)
     after = draft.tokens[heads[-1].at + 1 :][:1] if heads else ()
     if any(draft.nouns[one].speed_m_s for one in nouns) and any(map(is_course, after)):
         draft.mark(preposition, "shown")

@@ -174,7 +174,7 @@ def _is_open(draft: SceneDraft, field: str, things: Sequence[Mapping[str, Any]])
 
 def _say_field(draft: SceneDraft, token: Token, said: Sense, index: int) -> None:
     """Set a field of an object; of a speed also the one that it reaches: "brakes to 2 m/s"."""
-    motions, before = draft.things[index]["motions"], draft.tokens[token.at - 1].text
+    motions, before = draft.things[index]["motions"], draft.beside(token, -1).text
     (name, value), end = said.value, motions[-1].get("end_pace") if motions else None
     if name == "speed_m_s" and end is not None:
         is_end = before == "to" or (before != "from" and end > motions[-1].get("pace", 1.0))

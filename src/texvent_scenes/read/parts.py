@@ -8,7 +8,7 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.tables import nouns_with, read_table
 from texvent_scenes.read.draft.motions import BLINK_HZ
 from texvent_scenes.read.draft.scene_draft import SceneDraft
-from texvent_scenes.read.parsing.groups import Group, Phrase
+from texvent_scenes.read.parsing.groups import Group, Phrase, words_of
 from texvent_scenes.read.parsing.lexicon import owned_parts, word_set
 from texvent_scenes.read.parsing.tokens import Token
 
@@ -18,7 +18,7 @@ def are_own_parts(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) ->
 
     No other number is shown.
     """
-    words = [word for group in phrase.groups for word in list_words(group)]
+    words = words_of(phrase.groups)
     if phrase.preposition.text == "with" and draft.names_tool(subjects, words):
         draft.show(phrase.preposition, *words)
         return True
@@ -35,7 +35,7 @@ def are_own_parts(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) ->
 def _take_mark(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
     """Let things be those that have a mark, "a disc with a white dot"; "on a blade" it is there."""
     marks = read_table("words", "read")["marks"]
-    words = [word for group in phrase.groups[:1] for word in list_words(group)]
+    words = words_of(phrase.groups[:1])
     nouns = draft.names(subjects)
     if phrase.preposition.text == "on":
         bears = [read_table("words", "read")["bearers"].get(one.text, ()) for one in words]
@@ -65,7 +65,7 @@ def _take_mark(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bo
 def _are_built_in(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
     """Whether it names parts and patterns that are not drawn: "a bus with two doors"."""
     nouns = [one.noun.noun if one.noun else "" for one in phrase.groups]
-    is_own = any(word.text in owned_parts() for one in phrase.groups for word in list_words(one))
+    is_own = any(word.text in owned_parts() for word in words_of(phrase.groups))
     flat, is_body = nouns_with("flat pattern"), not any(map(draft.walks, subjects))
     is_flat = any(draft.things[one]["noun"] in flat for one in subjects)
     inner = word_set("things", "built_in") | (frozenset() if is_flat else flat)  # "with stripes"
@@ -74,7 +74,7 @@ def _are_built_in(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) ->
 
 def say_parts(draft: SceneDraft, groups: Sequence[Group], subjects: Sequence[int]) -> bool:
     """Account for parts that things have, if all groups name some: "its second hand moving"."""
-    owned, words = owned_parts(), [*map(list_words, groups)]
+    owned, words = owned_parts(), [one.words for one in groups]
     parts = [next((word.text for word in each if word.text in owned), "") for each in words]
     if not subjects or not parts or not all(parts):
         return False
@@ -116,8 +116,3 @@ def _say_of_part(draft: SceneDraft, word: Token, part: str, owners: Sequence[int
     elif word.text != part and not (fields.keys() & {"count"} or word.has("articles")):
         return  # "with shiny blades"
     draft.show(word)
-
-
-def list_words(group: Group) -> list[Token]:
-    """Words of a group: its head, those that are not known, and its modifiers."""
-    return [*([group.head] if group.head else []), *group.unknown, *group.modifiers]

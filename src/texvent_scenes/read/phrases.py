@@ -10,7 +10,7 @@ from texvent_scenes.read.camera import is_standpoint
 from texvent_scenes.read.draft.places import names_place
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.modifiers import say_word
-from texvent_scenes.read.parsing.groups import Phrase
+from texvent_scenes.read.parsing.groups import Phrase, heads_of, words_of
 from texvent_scenes.read.parsing.lexicon import word_set
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
 from texvent_scenes.read.parts import are_own_parts
@@ -72,7 +72,7 @@ def _push_with(draft: SceneDraft, subjects: Sequence[int], riders: Sequence[int]
 
 def _hangs_on_unknown(draft: SceneDraft, phrase: Phrase) -> bool:
     """Whether it is part of what is not known: "a tray with glasses"."""
-    before = draft.tokens[phrase.preposition.at - 1]
+    before = draft.beside(phrase.preposition, -1)
     is_noun = before.is_unknown and not before.text.endswith("ly") and before is not draft.last.verb
     return phrase.preposition.text == "with" and is_noun
 
@@ -83,11 +83,11 @@ def _choose_placed(
     """Objects of a phrase: of "a cup on a plate on a table" the plate, "next to" one both."""
     kind, before = (str(one and one.value) for one in
                     (phrase.preposition.first("relation"), last.first("relation")))  # fmt: skip
-    if kind == "with" and draft.tokens[phrase.preposition.at - 1].has("noun"):
+    if kind == "with" and draft.beside(phrase.preposition, -1).has("noun"):
         others = {draft.things[index]["noun"] for index in {*draft.last.nearest} - {*subjects}}
         if others and others <= PERSON_NOUNS | word_set("things", "vessels"):
             return draft.last.nearest  # "passes a man with a suitcase", "carries a tray with cups"
-    if before == "with" and told and kind in PLACING and draft.tokens[last.at - 1].has("place"):
+    if before == "with" and told and kind in PLACING and draft.beside(last, -1).has("place"):
         return told  # "in a room with candles on the table"
     if kind == "on" and draft.names(told) <= word_set("things", "flames"):
         return told or subjects  # "blows out the candles on a cake"
@@ -125,8 +125,7 @@ def apply_phrase(
     owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"
     for group in phrase.groups:
         targets += name_group(draft, group, kind or token.text, owners)
-    heads = [group.head for group in phrase.groups if group.head is not None]
-    words = [one for group in phrase.groups for one in (*group.unknown, *group.modifiers)]
+    heads = heads_of(phrase.groups)
     if not targets:
         is_place = all(names_place(one, kind or token.text) for one in heads)
         if is_place and "name" in draft.parts["place"]:
@@ -146,7 +145,7 @@ def apply_phrase(
     elif kind and (subjects or kind != "with"):  # "an office with a desk"
         _relate_all(draft, token, kind, subjects, targets)
     is_lone = not targets or (kind == "with" and bool(subjects or moved or not draft.last.has_verb))
-    if is_lone and any(map(draft.shows, (*heads, *words))):
+    if is_lone and any(map(draft.shows, words_of(phrase.groups))):
         draft.show(token)
     return targets
 
@@ -176,12 +175,12 @@ def _relate_back(draft: SceneDraft, kind: str, phrase: Phrase, subjects: Sequenc
     if phrase.groups:
         claim_mutual(draft, [token, *find_mutual(phrase.groups)], kind, subjects)
         return
-    if (before := draft.tokens[token.at - 1]).has("place") and kind == "behind":
+    if (before := draft.beside(token, -1)).has("place") and kind == "behind":
         far = {one.value for one in before.all("place")} & word_set("things", "backdrops")
         draft.mark(token, "shown" if far and draft.shows(before) else "lost")
         return  # "with mountains behind it"
     own = {*subjects, *draft.list_held(subjects)}  # "a man in a coat walks behind it"
-    is_many = draft.tokens[token.at + 1].text == "them" and draft.is_many(draft.last.earlier)
+    is_many = draft.beside(token, 1).text == "them" and draft.is_many(draft.last.earlier)
     is_own = bool(set(nearest) & own) or (is_many and not draft.is_many(nearest))
     others: Sequence[int] = subjects
     about: Sequence[int] = draft.last.earlier if is_own else nearest

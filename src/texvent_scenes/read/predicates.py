@@ -9,7 +9,7 @@ from texvent_scenes.read.acts import perform
 from texvent_scenes.read.draft.abilities import is_of_people
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.parsing.clauses import Clause
-from texvent_scenes.read.parsing.groups import Phrase
+from texvent_scenes.read.parsing.groups import Phrase, nouns_of
 from texvent_scenes.read.parsing.lexicon import word_set
 from texvent_scenes.read.parsing.tokens import Token
 from texvent_scenes.read.prepositions import claim_mutual, find_mutual
@@ -41,7 +41,7 @@ def add_doer(draft: SceneDraft, clause: Clause) -> list[int]:
     verb = clause.verb
     if clause.about or clause.subjects or verb is None or draft.things:
         return []
-    nouns = [group.noun.noun for group in clause.objects if group.noun is not None]
+    nouns = nouns_of(clause.objects)
     acts = [one.value for one in verb.verbs("ing")]
     if not all(one.is_grammar for one in draft.tokens[: verb.at]):
         return []  # "rain falling"

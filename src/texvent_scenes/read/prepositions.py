@@ -11,10 +11,9 @@ from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.draft.abilities import MEANS
 from texvent_scenes.read.draft.copies import part_ways
 from texvent_scenes.read.draft.scene_draft import SceneDraft
-from texvent_scenes.read.parsing.groups import Group, Phrase
+from texvent_scenes.read.parsing.groups import Group, Phrase, heads_of, words_of
 from texvent_scenes.read.parsing.lexicon import word_set
 from texvent_scenes.read.parsing.tokens import Token
-from texvent_scenes.read.parts import list_words
 from texvent_scenes.read.relations import relate_one
 from texvent_scenes.spec.data import PLACING, SPACED
 
@@ -93,14 +92,13 @@ def names_formation(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) 
 
     A dot in a square is a thing in another one.
     """
-    heads = [group.head for group in phrase.groups if group.head is not None]
+    heads = heads_of(phrase.groups)
     is_form = any(one.text in word_set("things", "forms") and not one.has("place") for one in heads)
     own = draft.names(subjects)
     is_drawn = bool(own) and own <= nouns_with("flat pattern")
     if phrase.preposition.text != "in" or not is_form or is_drawn:
         return False
-    words = (one for each in phrase.groups for one in list_words(each))
-    for token in (phrase.preposition, *words):
+    for token in (phrase.preposition, *words_of(phrase.groups)):
         draft.mark(token, "lost")
     return True
 
@@ -222,7 +220,7 @@ def set_before(draft: SceneDraft, token: Token, noun: str, subjects: Sequence[in
 
 def keep_distance(draft: SceneDraft, preposition: Token, subjects: Sequence[int]) -> None:
     """Apply the distance before a preposition: "2 m behind a car"."""
-    token = draft.tokens[preposition.at - 1]
+    token = draft.beside(preposition, -1)
     name, value = said.value if (said := token.first("adverb")) else ("", None)
     for index in subjects if name == "distance_m" else ():
         for row in draft.things[index]["relations"][-1:]:
@@ -249,7 +247,7 @@ def dress(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
 
 def is_rained_on(draft: SceneDraft, token: Token, kind: str) -> bool:
     """Whether weather or leaves come down on something, as on all: "snow falls on a car"."""
-    before = draft.tokens[token.at - 1]
+    before = draft.beside(token, -1)
     is_weather = {one.value[1] for one in before.all("scene")} & {"weather", "has_snow"}
     is_all_over = {one.value for one in before.all("effect")} & word_set("things", "all_over")
     return bool(is_weather or is_all_over) and kind in _RAINED_ON

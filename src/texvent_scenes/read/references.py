@@ -9,7 +9,7 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.read.again import leave_places
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.parsing.clauses import Clause
-from texvent_scenes.read.parsing.groups import Group
+from texvent_scenes.read.parsing.groups import Group, nouns_of
 from texvent_scenes.read.parsing.lexicon import word_set
 from texvent_scenes.read.parsing.tokens import Token
 from texvent_scenes.read.things import name_group, pick_group
@@ -52,7 +52,7 @@ def _find_listed(draft: SceneDraft, groups: Sequence[Group]) -> list[int]:
     """Objects of a list that all do what follows: "with cars and dogs running"."""
     if len(groups) < 2 or not all(one.is_plural and not one.article for one in groups):
         return []
-    nouns = [one.noun.noun for one in groups if one.noun is not None]
+    nouns = nouns_of(groups)
     last = range(len(draft.things))[-len(groups) :]
     if [draft.things[index]["noun"] for index in last] != nouns:
         return []
@@ -62,7 +62,7 @@ def _find_listed(draft: SceneDraft, groups: Sequence[Group]) -> list[int]:
 def _find_meant(draft: SceneDraft, clause: Clause) -> list[int]:
     """Objects of the last clause that a pronoun before a verb means: "drops it, it breaks"."""
     verb = clause.verb
-    word = draft.tokens[verb.at - 1].text if verb is not None and verb.at else ""
+    word = draft.beside(verb, -1).text if verb is not None else ""
     if word not in ("it", "he", "she"):
         return draft.last.subjects
     fits = [one for one in (*draft.last.subjects, *draft.last.acted, *draft.last.nearest)
@@ -83,7 +83,7 @@ def find_object(
     draft: SceneDraft, clause: Clause, subjects: list[int], nearest: list[int]
 ) -> list[int]:
     """Objects that a pronoun after a verb means: "overtakes them", "runs after it"."""
-    word = draft.tokens[clause.verb.at + 1].text if clause.verb else ""
+    word = draft.beside(clause.verb, 1).text if clause.verb else ""
     about = draft.last.earlier if draft.last.subjects == subjects else draft.last.subjects
     if word == "them":
         both = about if draft.is_many(about) else [*about, *nearest]

@@ -7,7 +7,7 @@ from typing import Any
 
 from texvent_scenes.models.activities import AIMED, PERSON_NOUNS
 from texvent_scenes.models.anchors import has_rim, takes_in
-from texvent_scenes.models.people.outfit import list_props
+from texvent_scenes.models.people.outfit import can_be_worn, list_props
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.parsing.lexicon import word_set
@@ -120,7 +120,7 @@ def ridden_by(draft: SceneDraft, index: int, kind: str) -> int:
 
 def _part_worn(draft: SceneDraft, targets: Sequence[int]) -> list[list[int]]:
     """Things that can be worn, and others: "with glasses and a boy"."""
-    worn = {one for one in targets if draft.things[one]["noun"] in word_set("things", "worn")}
+    worn = {one for one in targets if can_be_worn(draft.things[one]["noun"])}
     parts = [one for one in targets if one in worn], [one for one in targets if one not in worn]
     return [*filter(None, parts)]
 
@@ -161,7 +161,7 @@ def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> st
         return "off"
     if noun in trait_values("belt speed") and kind in ("past", "down"):
         return kind if draft.can_go(index) else "on"
-    if noun in word_set("things", "worn") and kind in ("in", "with"):
+    if can_be_worn(noun) and kind in ("in", "with"):
         return "wear" if thing["noun"] in PERSON_NOUNS | nouns_with("person on a vehicle") else ""
     if noun in trait_values("circled on") and kind in _ROUND and draft.can_go(index):
         thing["motions"] = thing["motions"] or [{"kind": "orbit"}]

@@ -9,7 +9,7 @@ from texvent_scenes.models.protocol import Noun
 from texvent_scenes.read.account import Reading, finish
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.parsing.clauses import Clause, read_clauses
-from texvent_scenes.read.parsing.groups import Phrase
+from texvent_scenes.read.parsing.groups import Phrase, heads_of
 from texvent_scenes.read.parsing.lexicon import lexicon_of, word_set
 from texvent_scenes.read.parsing.senses import choose_senses
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token, split_prompt
@@ -44,13 +44,12 @@ def _apply(draft: SceneDraft, clause: Clause) -> None:
     draft.phase += clause.about == "then" and bool(draft.moves)
     is_later = bool(draft.things or draft.effects or draft.moves)
     draft.phases += clause.about == "then" and is_later
-    for head in (group.head for group in clause.absent):
-        if head is not None and head.has("noun") and not _is_built_in(draft, head, clause):
+    for head in heads_of(clause.absent):
+        if head.has("noun") and not _is_built_in(draft, head, clause):
             draft.absent.append(head.all("noun")[0].value.noun)
             draft.show(head, *clause.negation)
     goes_on = draft.last.was_camera and clause.about in ("same", "meanwhile", "then")
-    heads = [one.head for one in clause.subjects if one.head is not None]
-    is_aboard = any(draft.fates.get(one.at) == "camera" for one in heads)
+    is_aboard = any(draft.fates.get(one.at) == "camera" for one in heads_of(clause.subjects))
     is_named = goes_on or is_aboard or clause.about == "camera"
     seated = None if is_named else (sit_in(draft, clause) or look_out(draft, clause))
     clause = seated or clause

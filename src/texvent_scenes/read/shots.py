@@ -12,7 +12,7 @@ from texvent_scenes.read.draft.abilities import MEANS
 from texvent_scenes.read.draft.places import names_place
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.parsing.clauses import Clause
-from texvent_scenes.read.parsing.groups import Group, Phrase
+from texvent_scenes.read.parsing.groups import Group, Phrase, heads_of, nouns_of
 from texvent_scenes.read.parsing.lexicon import Sense, lexicon_of, word_set
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
 from texvent_scenes.read.phrases import apply_phrase
@@ -26,7 +26,7 @@ def is_ego(draft: SceneDraft, clause: Clause) -> bool:
     verbs = clause.verb.verbs("ing") if clause.verb is not None else ()
     travels = any(one.value.kind.startswith("travel") for one in verbs)
     is_place = all(one.head and names_place(one.head, "") for one in clause.subjects)
-    before = draft.tokens[verb.at - 1] if (verb := clause.verb) and verb.at else NO_TOKEN
+    before = draft.beside(clause.verb or NO_TOKEN, -1)
     kinds = {one.value[1] for one in before.all("scene")} | {one.kind for one in before.senses}
     is_own = before.is_unknown or kinds & {"noun", "effect", "verb", "weather"}
     if is_own and not kinds & {"shot", "style"}:
@@ -41,7 +41,7 @@ def sit_in(draft: SceneDraft, clause: Clause) -> Clause | None:
     "A car exits a tunnel, dashcam view"; None: no camera is in a vehicle.
     """
     shots = {sense.value for token in draft.tokens for sense in token.all("shot")}
-    nouns = [group.noun.noun for group in clause.subjects if group.noun is not None]
+    nouns = nouns_of(clause.subjects)
     is_driven = [draft.nouns[one].motion for one in nouns] == ["drive"]
     is_driven &= not any(group.is_plural for group in clause.subjects)
     if "travel forward drive" not in shots or draft.things or not (is_driven and clause.verb):
@@ -88,8 +88,7 @@ def look_out(draft: SceneDraft, clause: Clause) -> Clause | None:
 
 def _names_passage(groups: Sequence[Group]) -> bool:
     """Whether some of the groups name what has a way through."""
-    nouns = {one.noun.noun for one in groups if one.noun is not None}
-    return bool(nouns & nouns_with("passage"))
+    return bool({*nouns_of(groups)} & nouns_with("passage"))
 
 
 def is_shot(clause: Clause) -> bool:
@@ -134,7 +133,7 @@ def apply_to_camera(draft: SceneDraft, clause: Clause, *, is_own: bool) -> None:
                 is_side = move is None or not go_through(draft, move, one.preposition, found)
             is_over = look_over(draft, one.preposition, found)
             claim_way(draft, move, one.preposition, [] if is_over else found)
-            heads = [group.head for group in one.groups if group.head is not None]
+            heads = heads_of(one.groups)
             words = heads or [each for group in one.groups for each in group.unknown]
             is_side |= bool(one.groups) and not any(map(draft.shows, words))
             is_side |= kind == "front" and any(each["kind"] == "travel" for each in draft.moves)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
 
 from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
@@ -150,15 +149,13 @@ def _fill(draft: SceneDraft, vessels: Sequence[int], content: Group, token: Toke
 
 
 def _name_thing(draft: SceneDraft, group: Group, head: Token) -> list[int]:
-    noun = group.noun
-    is_owned = group.article in word_set("things", "owners")
+    noun, owners = group.noun, word_set("things", "owners")
     known = draft.find([noun.noun] if noun else ())
     known = known or (list_kinds(draft, head) if group.article == "the" else [])
-    is_owned |= bool(draft.find(PERSON_NOUNS))
-    owners = owned_parts().get(head.text, {}).keys() & {one["noun"] for one in draft.things}
-    if owners and group.article in word_set("things", "owners") | {"the", ""}:
+    if group.article in owners | {"the", ""} and draft.find(owned_parts().get(head.text, ())):
         draft.show(head)
         return []  # "a cyclist falls off his bike", "a car stops and the door opens"
+    is_owned = group.article in owners or bool(draft.find(PERSON_NOUNS))
     is_part = noun and ((is_owned and noun.noun in HAND_NOUNS) or group.article == "its")
     if len(draft.things) == MAX_BODIES or (is_part and not known):
         return []  # "his hands", "with its propellers": parts of a body
@@ -171,24 +168,25 @@ def _name_thing(draft: SceneDraft, group: Group, head: Token) -> list[int]:
     if is_same and is_plain and is_again(draft, group, head, known[-1]):
         draft.last.nearest = known[-1:]  # "the car", where there is one
         return known[-1:]
-    if noun is not None:
-        thing: dict[str, Any] = {"noun": noun.noun, "motions": []}
-        thing |= {"word": head.text}
-        thing |= {"deed": deed} if (deed := deeds().get(head.text)) else {}
-        if noun.is_kind:
-            draft.mark(head, noun.noun)
+    draft.last.nearest = [_add_thing(draft, group, head)]
+    return draft.last.nearest
+
+
+def _add_thing(draft: SceneDraft, group: Group, head: Token) -> int:
+    """Add an object for a noun, or for who is named by an act; its index."""
+    noun = group.noun
+    if noun is None:
+        name, activity = head.all("pose")[0].value
+        index = draft.add(name, motions=[{"kind": activity}])
     else:
-        who, activity = head.all("pose")[0].value
-        thing = {"noun": who, "motions": [{"kind": activity}]}
-    many = trait_value("bodies of a plural", thing["noun"]) or PLURAL_COUNT
-    count = many if group.is_plural else 1
-    is_open = group.is_plural and not any(
-        each.value[0] == "count" for one in group.modifiers for each in one.all("field")
-    )
-    own = {"is_open": True} if is_open else {}
-    draft.things.append({**thing, **own, "count": count, "relations": []})
-    index = len(draft.things) - 1
-    draft.show_inherent(group.unknown, draft.things[index]["noun"])
+        name, deed = noun.noun, deeds().get(head.text)
+        index = draft.add(name, word=head.text, **({"deed": deed} if deed else {}))
+        if noun.is_kind:
+            draft.mark(head, name)
+    if group.is_plural:
+        many = trait_value("bodies of a plural", name) or PLURAL_COUNT
+        draft.things[index] |= {"count": many, "is_open": not group.is_counted}
+    draft.show_inherent(group.unknown, name)
     say_modifiers(draft, group, index)
     for token in group.unknown if not draft.can_go(index) else ():
         if names_place(token, "") and not token.has("noun"):  # "a kitchen table"
@@ -196,8 +194,7 @@ def _name_thing(draft: SceneDraft, group: Group, head: Token) -> list[int]:
     draft.name_kind((*group.unknown, *group.modifiers), head, draft.things[index]["noun"])
     if any(one.text in word_set("things", "stacks") for one in group.modifiers):
         stack(draft, index)
-    draft.last.nearest = [index]
-    return [index]
+    return index
 
 
 def _pose_again(draft: SceneDraft, group: Group, head: Token) -> list[int]:

@@ -32,7 +32,7 @@ from texvent_scenes.models.people.prop_motions import PropMotion, read_motion
 from texvent_scenes.models.protocol import ModelPart, choose, paint
 from texvent_scenes.models.shapes import ball
 from texvent_scenes.models.surfaces import FIXED_HUES, PAINT, Painted
-from texvent_scenes.models.tables import frozen, read_table
+from texvent_scenes.models.tables import frozen, read_table, trait_value
 from texvent_scenes.rendered_scene import Colour
 
 
@@ -92,6 +92,11 @@ Worn: TypeAlias = tuple[str, Colour | None, str]
 
 _DARKER = 0.3
 """Colour of a material in clothes, as a multiple of its usual one."""
+
+
+def can_be_worn(noun: str) -> bool:
+    """Whether people wear it."""
+    return noun in CLOTHES or trait_value("worn", noun) is not None
 
 
 def put_on(kind: PersonKind, worn: Iterable[Worn]) -> PersonKind:

@@ -15,7 +15,7 @@ from texvent_scenes.models.activities import (
 )
 from texvent_scenes.models.anchors import grips
 from texvent_scenes.models.effects import LAMPS
-from texvent_scenes.models.people.outfit import CLOTHES, list_props
+from texvent_scenes.models.people.outfit import can_be_worn, list_props
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
 from texvent_scenes.read.parsing.lexicon import VerbSense, word_set
@@ -29,11 +29,6 @@ _SWITCHED_S = 1.0
 """Time at which a lamp is switched of which no time is said."""
 _ALONG = ("push", "pull", "knock over")
 """Relations of what goes by itself."""
-
-
-def can_be_worn(noun: str) -> bool:
-    """Whether people wear it."""
-    return noun in CLOTHES or trait_value("worn", noun) is not None
 
 
 def is_of_people(act: VerbSense) -> bool:

@@ -13,7 +13,7 @@ from texvent_scenes.models.tables import nouns_with, read_table
 from texvent_scenes.read.draft.abilities import Abilities
 from texvent_scenes.read.draft.motions import split_move, turn_by
 from texvent_scenes.read.parsing.lexicon import Sense, word_set
-from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
+from texvent_scenes.read.parsing.tokens import Token, token_at
 from texvent_scenes.spec.data import PLACING
 
 _SAID_TWICE = ("travel", "handheld", "static")
@@ -89,6 +89,10 @@ class SceneDraft(Abilities):
     """Number of a token → the compound of which it is the head, and which is shown as it."""
     homes: list[tuple[Token, Token, str]] = field(default_factory=list)
     """Places before names of those who go anywhere, as of "a street cat"; their nouns."""
+
+    def beside(self, token: Token, step: int) -> Token:
+        """The token so many after another one, or before it."""
+        return token_at(self.tokens, token.at + step)
 
     def show(self, *tokens: Token) -> None:
         """Count tokens as shown, unless they are lost or shown as something else."""
@@ -170,7 +174,7 @@ class SceneDraft(Abilities):
 
     def _pace_before(self, token: Token) -> dict[str, Any]:
         """The pace that the word before says, if of nothing else: "fast yaw rotation"."""
-        before = self.tokens[token.at - 1] if token.at else NO_TOKEN
+        before = self.beside(token, -1)
         name, value = (before.first("adverb") or Sense("", ("", ""))).value
         if name != "pace" or self.shows(before):
             return {}
@@ -223,7 +227,7 @@ class SceneDraft(Abilities):
 
     def name_kind(self, words: Sequence[Token], head: Token, noun: str) -> None:
         """Report a compound that is shown as its head: "a face shield" as a shield."""
-        before = self.tokens[head.at - 1] if head.at else NO_TOKEN
+        before = self.beside(head, -1)
         is_noun = before.has("noun", "place") or not before.text.endswith(
             (*word_set("things", "adjective_ends"),)
         )

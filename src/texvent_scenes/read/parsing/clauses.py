@@ -5,7 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from texvent_scenes.read.parsing.groups import MODIFIERS, Group, GroupReader, Phrase
+from texvent_scenes.models.people.outfit import can_be_worn
+from texvent_scenes.read.parsing.groups import (
+    MODIFIERS,
+    Group,
+    GroupReader,
+    Phrase,
+    heads_of,
+    nouns_of,
+)
 from texvent_scenes.read.parsing.lexicon import owned_parts, word_set
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
 
@@ -34,7 +42,7 @@ class Clause:
     @property
     def is_of_effect(self) -> bool:
         """Whether it is about an effect: "smoke rises"."""
-        return any(one.head is not None and one.head.has("effect") for one in self.subjects)
+        return any(one.has("effect") for one in heads_of(self.subjects))
 
     @property
     def has_subject(self) -> bool:
@@ -311,7 +319,7 @@ class _Parser(GroupReader):
             self._take()
             group = self._group()
             is_subject = group.article or group.is_plural
-            is_worn = group.noun is not None and group.noun.noun in word_set("things", "worn")
+            is_worn = any(map(can_be_worn, nouns_of([group])))
             is_subject = is_subject and not (is_worn or self._share_verb((*found, group)))
             if (is_subject and self._is_verb(Clause((group,)))) or self._is_like(preposition):
                 self._at = start

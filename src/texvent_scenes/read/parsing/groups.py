@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.tables import read_table
 from texvent_scenes.read.parsing.lexicon import NounSense, owned_parts, states, word_set
-from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
+from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token, token_at
 
 _HEADS = ("noun", "place", "effect", "pose", "scene")
 """Senses that a noun group may end with."""
@@ -49,6 +49,11 @@ class Group:
     """Phrase with "of" that follows: "of apples"."""
 
     @property
+    def words(self) -> list[Token]:
+        """Its head, the words that are not known, and its modifiers."""
+        return [*([self.head] if self.head else []), *self.unknown, *self.modifiers]
+
+    @property
     def noun(self) -> NounSense | None:
         """Its noun, in the number that is said: "two glasses" are no spectacles."""
         senses: list[NounSense] = [one.value for one in self.head.all("noun")] if self.head else []
@@ -87,8 +92,13 @@ class Group:
     @property
     def is_bare(self) -> bool:
         """Whether it is a noun alone, as in headlines: "fast ball"."""
-        is_counted = any(_counts(one) for one in self.modifiers)
-        return bool(self.head and self.head.has("noun")) and not self.article and not is_counted
+        is_noun = bool(self.head and self.head.has("noun"))
+        return is_noun and not self.article and not self.is_counted
+
+    @property
+    def is_counted(self) -> bool:
+        """Whether a number of it is said."""
+        return any(map(_counts, self.modifiers))
 
     @property
     def is_plural(self) -> bool:
@@ -105,6 +115,21 @@ class Group:
         is_open = is_name and self.article not in ("a", "an")
         same = [one for one in senses if one.noun == senses[0].noun] if is_open else senses[:1]
         return any(one.is_plural for one in same)
+
+
+def heads_of(groups: Sequence[Group]) -> list[Token]:
+    """Heads of those groups that have one."""
+    return [one.head for one in groups if one.head is not None]
+
+
+def nouns_of(groups: Sequence[Group]) -> list[str]:
+    """Nouns of those groups that have one."""
+    return [one.noun.noun for one in groups if one.noun is not None]
+
+
+def words_of(groups: Sequence[Group]) -> list[Token]:
+    """Words of groups, no articles."""
+    return [word for one in groups for word in one.words]
 
 
 def is_trajectory(group: Group) -> bool:
@@ -133,8 +158,7 @@ class GroupReader:
     """Whether the clause has its verb: what follows is none."""
 
     def _token(self, ahead: int = 0) -> Token:
-        at = self._at + ahead
-        return self._tokens[at] if 0 <= at < len(self._tokens) else NO_TOKEN
+        return token_at(self._tokens, self._at + ahead)
 
     def _take(self) -> Token:
         self._at += 1
@@ -201,7 +225,7 @@ class GroupReader:
             return None
         self._take()
         other, self._at = self._group(), start
-        is_like = mine == (bool(other.article), any(map(_counts, other.modifiers)))
+        is_like = mine == (bool(other.article), other.is_counted)
         return other.head if is_like and other.head and other.head.has("noun") else None
 
     def _tail(self) -> int:
@@ -267,7 +291,7 @@ class GroupReader:
         nouns = [one.value for one in self._token(-1).all("noun")]
         is_many = bool(nouns) and all(one.is_plural for one in nouns)  # "dogs fish", no "aircraft"
         is_inert = bool(before) and all(one in NOUNS and not NOUNS[one].speed_m_s for one in before)
-        led = self._tokens[first - 1] if first else NO_TOKEN
+        led = token_at(self._tokens, first - 1)
         is_lone = is_inert and not (article or any(one.is_plural for one in nouns))
         is_lone &= led.has("verb", "relation") and not led.has("noun")  # "wears oven gloves"
         is_lone |= self._has_verb or bool(

@@ -14,7 +14,7 @@ from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, read_table, trait_value
 from texvent_scenes.read.parsing.groups import is_plural_form
 from texvent_scenes.read.parsing.lexicon import NounSense, Sense, word_set
-from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
+from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token, token_at
 from texvent_scenes.words import list_plurals
 
 _LIVING = frozenset(
@@ -42,7 +42,7 @@ def choose_senses(tokens: Sequence[Token], nouns: Mapping[str, Noun]) -> list[To
     related = [_relate(one, tokens) for one in named]
     chosen = [_choose(one, related, nouns) if not one.senses else one for one in related]
     seen = [_see_beside(one, chosen) for one in chosen]
-    return [_see_as_part(one, seen[one.at - 1], nouns) if one.at else one for one in seen]
+    return [_see_as_part(one, token_at(seen, one.at - 1), nouns) for one in seen]
 
 
 def _drop_similes(tokens: Sequence[Token]) -> list[Token]:
@@ -64,7 +64,7 @@ def _see_as_move(token: Token, tokens: Sequence[Token]) -> Token:
 
 def _see_as_young(token: Token, tokens: Sequence[Token]) -> Token:
     """The token as a size, where a young animal is meant: "a baby elephant"."""
-    after = tokens[token.at + 1] if token.at + 1 < len(tokens) else NO_TOKEN
+    after = token_at(tokens, token.at + 1)
     animals = {one.value.noun for one in after.all("noun")} - PERSON_NOUNS
     is_animal = any(NOUNS[one].acts or NOUNS[one].speed_m_s > 0.0 for one in animals & _LIVING)
     is_young = token.text in word_set("things", "young") and is_animal
@@ -73,7 +73,7 @@ def _see_as_young(token: Token, tokens: Sequence[Token]) -> Token:
 
 def _is_state(token: Token, tokens: Sequence[Token]) -> bool:
     """Whether a participle says how the noun after it is anyway: "fallen leaves"."""
-    after = tokens[token.at + 1] if token.at + 1 < len(tokens) else NO_TOKEN
+    after = token_at(tokens, token.at + 1)
     true_of = read_table("words", "read")["inherent"].get(token.text, ())
     return token.has("verb") and any(one.value.noun in true_of for one in after.all("noun"))
 
@@ -95,11 +95,10 @@ def _is_of_light(token: Token, tokens: Sequence[Token]) -> bool:
 
 def _see_as_verb(token: Token, tokens: Sequence[Token]) -> Token:
     """The token as a verb, known or not, if it says what is done: "and then darts away"."""
-    before, after, then = (tokens[at] if 0 <= at < len(tokens) else NO_TOKEN
-                           for at in (token.at - 1, token.at + 1, token.at + 2))  # fmt: skip
+    before, after, then = (token_at(tokens, token.at + step) for step in (-1, 1, 2))
     forms = {one.value.is_plural for one in token.all("noun")}
     is_begun = before.text in word_set("things", "begun") or before.has("relatives")
-    is_begun |= before.is_pace and tokens[token.at - 2].has("relatives")
+    is_begun |= before.is_pace and token_at(tokens, token.at - 2).has("relatives")
     is_verb = True in forms and is_begun and not (after.has("verb") or after.text == "and")
     is_verb &= token.has("verb") or not before.is_pace  # "then cars drive by"
     is_led = after.text in word_set("things", "particles") and (then.is_sign or then.text == "and")
@@ -114,7 +113,7 @@ def _see_as_mass(token: Token, tokens: Sequence[Token]) -> Token:
 
     As in "behind dusty glass", "a remote controlled car", "with a leaf pattern".
     """
-    after, then = ([*tokens[token.at + 1 : token.at + 3], NO_TOKEN, NO_TOKEN])[:2]
+    after, then = (token_at(tokens, token.at + step) for step in (1, 2))
     nouns = {one.value.noun for one in token.all("noun")}
     ends = {one.text.rpartition(" ")[2] for one in tokens[token.at + 2 : token.at + 4]}
     if nouns and after.text == "of" and ends & word_set("things", "rays"):
@@ -152,7 +151,7 @@ def _see_beside(token: Token, tokens: Sequence[Token]) -> Token:
     others |= {one.value[1] for each in tokens for one in each.all("pose")}
     others |= {one.value.kind for each in tokens for one in each.all("verb")}
     row = next((one for one in rows if others & {*one["nouns"]}), None)
-    is_led = token.at > 0 and tokens[token.at - 1].has("articles", "field")  # no camera's "pan"
+    is_led = token_at(tokens, token.at - 1).has("articles", "field")  # no camera's "pan"
     if row is None or not (senses or token.is_unknown or is_led):
         return token
     sense = replace(senses[0] if senses else NounSense(""), noun=row["noun"])
@@ -162,8 +161,7 @@ def _see_beside(token: Token, tokens: Sequence[Token]) -> Token:
 def _relate(token: Token, tokens: Sequence[Token]) -> Token:
     """The token as the preposition that it is before a noun group: "round a fire"."""
     like = read_table("words", "read")["like"]
-    before = tokens[token.at - 1] if token.at else NO_TOKEN
-    following = tokens[token.at + 1] if token.at + 1 < len(tokens) else NO_TOKEN
+    before, following = (token_at(tokens, token.at + step) for step in (-1, 1))
     if token.text not in like or before.has("articles") or not following.has("articles"):
         return token
     return replace(token, senses=(Sense("relation", like[token.text]),))

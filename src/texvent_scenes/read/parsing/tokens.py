@@ -114,6 +114,11 @@ NO_TOKEN = Token(".", -1)
 """Stands before the first token and after the last one."""
 
 
+def token_at(tokens: Sequence[Token], at: int) -> Token:
+    """A token by its number."""
+    return tokens[at] if 0 <= at < len(tokens) else NO_TOKEN
+
+
 def split_prompt(prompt: str, lexicon: Lexicon) -> tuple[Token, ...]:
     """Tokens of a prompt, in order."""
     text = _name_owners(unicodedata.normalize("NFKC", _MIXED.sub(" ", prompt)))

@@ -13,7 +13,7 @@ import numpy as np
 from texvent_scenes.description import STANDING, IndexedRelation, SceneDescription
 from texvent_scenes.models.activities import ACTIVITIES, AIMED, HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.anchors import takes_in
-from texvent_scenes.models.people.outfit import CLOTHES, list_props
+from texvent_scenes.models.people.outfit import can_be_worn, list_props
 from texvent_scenes.models.protocol import Noun, Pose
 from texvent_scenes.models.shapes import compose
 from texvent_scenes.models.tables import nouns_with, trait_value
@@ -131,7 +131,7 @@ def _in_hand(
         is_small = thing in small and thing not in HAND_NOUNS
         if one.kind != "with" or not is_small or objects[one.subject].noun not in PERSON_NOUNS:
             yield one
-        elif trait_value("worn", thing) is not None or thing in CLOTHES:
+        elif can_be_worn(thing):
             yield replace(one, kind="wear")
         elif one.subject not in holding:
             holding.add(one.subject)
