@@ -42,7 +42,7 @@ PIP := $(VENV)/bin/python -m pip install $(PIP_OPTIONS)
 # The base and test environments take only files whose SHA-256 is in requirements/. HASHES=0 takes any
 # build of the versions in constraints.txt, for machines whose index serves wheels of its own.
 HASHES ?= 1
-HASHED := -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements/build.txt
+HASHED := -m pip install --quiet --disable-pip-version-check --no-compile --require-hashes -r requirements/build.txt
 PLAIN := -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation
 NO_HASH = echo "error: pip could not install the files that requirements/ lists (see above). If your index serves builds of its own, run: make HASHES=0 $(MAKECMDGOALS)"; exit 2
 NO_READERS = echo "note: not every independent reader of event files has a wheel for this machine; the tests that need them will be reported as skipped"

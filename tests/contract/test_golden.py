@@ -65,6 +65,7 @@ def test_no_golden_of_an_option_is_that_of_another_case() -> None:
         assert stored.count(digest_of_option) == 1
 
 
+@pytest.mark.long
 def test_a_rendered_scene_has_the_same_events_on_older_processors() -> None:
     """NumPy computes powers of float32 by other code where a processor has AVX-512 or AVX2."""
     from numpy._core._multiarray_umath import __cpu_dispatch__, __cpu_features__

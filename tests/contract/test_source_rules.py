@@ -123,10 +123,8 @@ def test_zeros_are_found_where_they_decide():
 
 def test_nothing_replaces_files_unasked(trees):
     found = []
-    nodes = ((path, one) for path, tree in trees.items() for one in ast.walk(tree))
-    for path, node in nodes:
-        if not isinstance(node, ast.arguments | ast.AnnAssign):
-            continue
+    of = {path: tree for path, tree in trees.items() if "overwrite" in path.read_text("utf-8")}
+    for path, node in ((path, one) for path, tree in of.items() for one in ast.walk(tree)):
         pairs = list[tuple[str, ast.expr | None]]()
         if isinstance(node, ast.arguments):
             names = [one.arg for one in (*node.posonlyargs, *node.args)]

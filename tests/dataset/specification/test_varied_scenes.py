@@ -113,6 +113,7 @@ def test_every_clip_stores_its_scene(folder):
     assert {one.scene["objects"][0]["colour"] for one in recipe.items.all} == {"red", "blue"}
 
 
+@pytest.mark.long
 def test_scenes_with_one_prompt_may_lie_in_several_splits(folder):
     (folder / "scenes" / "ball.toml").write_text('prompt = "a ball"\n[[objects]]\nnoun = "ball"\n')
     source = {"scene": "scenes/ball.toml", "vary": {COLOUR: ["red", "blue", "green", "white"]}}

@@ -104,6 +104,7 @@ def test_a_note_tells_when_what_somebody_sends_off_leaves_the_view(act):
 AIMS = [(x, z) for x in (-7.0, -3.0, 2.0) for z in (-2.0, 1.0, 4.0)]
 
 
+@pytest.mark.long
 def test_a_note_tells_how_long_a_still_camera_shows_what_moves():
     """Whether a corner of its box is in the image at each of seven instants."""
     movers = thing("car", ("drive", "right")), thing("drone", ("fly", "up"))

@@ -79,6 +79,7 @@ def test_native_folder_holds_all_and_says_how_it_was_made(native):
     assert len(set(facts["pixel_seeds"].values())) == 2
 
 
+@pytest.mark.long
 def test_native_imu_and_poses_are_rows_of_their_formats(native):
     imu = np.loadtxt(native / "imu.csv", delimiter=",", comments="#")
     poses = np.loadtxt(native / "poses.txt")

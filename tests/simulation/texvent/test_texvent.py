@@ -101,6 +101,7 @@ def test_cache_decides_how_slow_a_ramp_still_fires(options, times):
     assert seconds(events) == pytest.approx(times, abs=1e-9)
 
 
+@pytest.mark.long
 @pytest.mark.filterwarnings("ignore:no events")
 def test_references_decay_by_the_same_share_at_any_frame_rate():
     """.9 of a threshold, a second later .2 of one: too little if the first is nearly forgotten."""

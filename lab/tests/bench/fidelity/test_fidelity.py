@@ -77,6 +77,7 @@ def test_the_rate_is_matched_on_the_fitting_seeds(report):
         assert score.values["count_ratio"][0] == pytest.approx(1, abs=0.021)
 
 
+@pytest.mark.long
 def test_a_document_read_back_gives_the_report(report):
     document = json.loads(json.dumps(report.document(), allow_nan=False))
     assert read_report(document).document() == document
@@ -109,6 +110,7 @@ def test_the_calibrated_entry_knows_the_sensor():
     assert found.threshold_sigma == pytest.approx(NOISY.threshold_sigma, rel=0.15)
 
 
+@pytest.mark.long
 def test_floor_and_null_bound_the_scores(report):
     reference = report.reference("translate", "ideal")
     # Ideal pixels have no noise: a second recording is the same recording.

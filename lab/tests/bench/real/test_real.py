@@ -53,6 +53,7 @@ def test_motion_compensation_comes_closest_and_the_bounds_bound_it(report):
     assert "motion vectors" in report.skipped["esim, motion"]
 
 
+@pytest.mark.long
 def test_an_offset_that_is_wrong_scores_lower(pan_folder, report):
     wrong = run_real(
         [open_scene(str(pan_folder), RecordingPart(offset_us=20_000))], ENTRIES[:1], METRICS

@@ -22,13 +22,18 @@ def data(tmp_path: Path) -> SequenceData:
     return write_sequence_data(tmp_path, length=3)
 
 
+@pytest.fixture(scope="module")
+def clips(tmp_path_factory: pytest.TempPathFactory) -> WindowedClips:
+    data = write_sequence_data(tmp_path_factory.mktemp("clips"), length=3)
+    return WindowedClips.open(data, "train", TARGETS)
+
+
 def stored(data: SequenceData) -> set[str]:
     assert data.cache is not None
     return {path.name for path in data.cache.iterdir()}
 
 
-def test_windows_are_those_of_the_simulation(data: SequenceData) -> None:
-    clips = WindowedClips.open(data, "train", TARGETS)
+def test_windows_are_those_of_the_simulation(clips: WindowedClips, data: SequenceData) -> None:
     simulated = SimulatedClips(data.specification, split="train", variant="paper")
     assert len(clips) == len(simulated) == 2
     for number in range(2):
@@ -45,8 +50,7 @@ def test_windows_are_those_of_the_simulation(data: SequenceData) -> None:
     assert sum(len(one) for one in windows.events) > 0
 
 
-def test_a_part_is_that_part_of_the_whole(data: SequenceData) -> None:
-    clips = WindowedClips.open(data, "train", TARGETS)
+def test_a_part_is_that_part_of_the_whole(clips: WindowedClips) -> None:
     whole, part = clips.read(1), clips.read(1, 2, 2)
     assert all(a.equals(b) for a, b in zip(whole.events[2:4], part.events, strict=True))
     assert part.edges_us.tolist() == whole.edges_us[2:5].tolist()
@@ -54,8 +58,7 @@ def test_a_part_is_that_part_of_the_whole(data: SequenceData) -> None:
         np.testing.assert_array_equal(part.targets[target], whole.targets[target][2:4])
 
 
-def test_a_random_run_depends_on_chance_alone_and_reaches_both_ends(data: SequenceData) -> None:
-    clips = WindowedClips.open(data, "train", ["frame"])
+def test_a_random_run_depends_on_chance_alone_and_reaches_both_ends(clips: WindowedClips) -> None:
     starts = set()
     for seed in range(20):
         one, other = (clips.draw(0, np.random.default_rng(seed)) for _ in range(2))
@@ -65,6 +68,7 @@ def test_a_random_run_depends_on_chance_alone_and_reaches_both_ends(data: Sequen
     assert starts == {0, 1, 2, 3}
 
 
+@pytest.mark.long
 def test_a_clip_is_simulated_once_and_a_changed_specification_anew(data: SequenceData) -> None:
     WindowedClips.open(data, "train", TARGETS)
     (first,) = stored(data)

@@ -24,6 +24,7 @@ simulator = "esim"
 """
 
 
+@pytest.mark.long
 def test_they_are_equal_to_stored_ones(tmp_path: Path) -> None:
     path = tmp_path / "tiny.toml"
     path.write_text(SPECIFICATION)
