@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from difflib import get_close_matches
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -215,6 +216,33 @@ def _refuse_idle(scene: Scene, nouns: Mapping[str, Noun]) -> Scene:
     return scene
 
 
+@dataclass(frozen=True)
+class _Kind:
+    """A kind of motion, whose verbs are looked up where they are asked for."""
+
+    name: str
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Verbs of sentences that mean it."""
+        return _verbs().get(self.name, ())
+
+
+@lru_cache(maxsize=1)
+def _verbs() -> Mapping[str, tuple[str, ...]]:
+    """Kind of motion → its verbs."""
+    from texvent_scenes.meanings import meanings_of
+    from texvent_scenes.read.parsing.lexicon import lexicon_of
+
+    found: dict[str, list[str]] = {}
+    for phrase, senses in lexicon_of(None).items():
+        base = tuple(one for one in senses if one.form in ("", "base"))
+        for kind, value in meanings_of(base):
+            if kind == "motion":
+                found.setdefault(str(value), []).append(" ".join(phrase))
+    return {kind: tuple(verbs) for kind, verbs in found.items()}
+
+
 def list_words(nouns: Mapping[str, Noun]) -> Vocabulary:
     """The words of scenes, by kind: nouns, motions and activities, places, effects."""
     from texvent_scenes.models.activities import ACTIVITIES, HAND_GESTURES
@@ -225,7 +253,9 @@ def list_words(nouns: Mapping[str, Noun]) -> Vocabulary:
     usual = {kind for noun in nouns.values() for kind in (noun.motion, *noun.acts)}
     return {
         "noun": nouns,
-        "motion": sorted({*MOTIONS, *ACTIVITIES, *HAND_GESTURES, *usual}),
+        "motion": {
+            kind: _Kind(kind) for kind in sorted({*MOTIONS, *ACTIVITIES, *HAND_GESTURES, *usual})
+        },
         "place": PLACES,
         "effect": EFFECTS,
     }

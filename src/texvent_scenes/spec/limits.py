@@ -36,6 +36,10 @@ class Between:
         return {"minimum": self.low, "maximum": self.high}
 
 
+_MOST_MEANT = 3
+"""Words that are offered in place of an unknown one."""
+
+
 @dataclass(frozen=True)
 class Word:
     """A word of the vocabulary."""
@@ -53,9 +57,11 @@ class Word:
             for key in ("synonyms", "names")
             for other in getattr(one, key, ())
         }
-        meant = others.get(value) or nearest(value, tuple(known))
-        meant = meant or others.get(nearest(value, tuple(others)) or "")
-        hint = f"did you mean {shown(meant)}?" if meant else suggest(value, tuple(known))
+        parts = [name for name in known if value in name.split()]
+        own = [others[value]] if value in others else parts
+        near = nearest(value, tuple(known)) or others.get(nearest(value, tuple(others)) or "")
+        meant = [shown(one) for one in (own or [near])[:_MOST_MEANT] if one]
+        hint = f"did you mean {' or '.join(meant)}?" if meant else suggest(value, tuple(known))
         raise ConfigError(f"{where} is {shown(value)}; {hint}")
 
     def schema(self) -> dict[str, Any]:

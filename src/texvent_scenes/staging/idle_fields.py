@@ -121,7 +121,8 @@ class _Body:
         usual = Motion("stand")
         without = _with(one, number, **{name: getattr(usual, name)})
         given = getattr(one.motions[number], name)
-        is_headed = name == "direction" and one.heading_deg is not None
+        is_heading = name == "direction" and one.motions[number].kind != "turn"
+        is_headed = is_heading and one.heading_deg is not None
         probes = (given,) if is_headed else _probes(given)
         if name == "direction" and self.noun.is_working:  # it may go to and fro along one way
             probes = next((pair for pair in _OPPOSITE if given in pair), probes)
@@ -282,7 +283,7 @@ def _who_reads(body: _Body, one: SceneObject, motion: Motion, name: str) -> str:
     """Why a field of a motion has no effect, and what would give it one."""
     if name == "pace" and motion.speed_m_s is not None:
         return "speed_m_s takes its place; leave one of them out"
-    if name == "direction" and one.heading_deg is not None:
+    if name == "direction" and one.heading_deg is not None and motion.kind != "turn":
         return "heading_deg takes its place; leave one of them out"
     given = getattr(motion, name)
     readers = _name_kinds(body, lambda other: body.reads(_with(other, 0, **{name: given}), 0, name))

@@ -242,6 +242,30 @@ def test_a_flat_pattern_faces_the_camera_all_along(noun, said):
     np.testing.assert_allclose(fronts, np.tile([0.0, -1.0, 0.0], (4, 1)), atol=1e-9)
 
 
+@pytest.mark.parametrize("way", ["to and fro", "up and down"])
+@pytest.mark.parametrize(
+    ("noun", "kind", "after"),
+    [("checkerboard", "move", "tilt"), ("drone", "fly", "spin"), ("fish", "swim", "sway"),
+     ("ball", "move", "jump")],
+)  # fmt: skip
+def test_what_goes_to_and_fro_before_it_does_something_else_swings_until_then(
+    noun, kind, after, way
+):
+    first = Motion(kind, way, rate_hz=1.5, speed_m_s=0.6)
+    body = stage(SceneObject(noun, motions=(first, Motion(after, start_s=1.0)))).actors[0]
+    times = np.linspace(0.0, 1.0, 21)
+    places = np.array([body.track.at(time).position for time in times])
+    # A stated speed is the greatest one: of 0.6 m/s at 1.5 Hz, 64 mm to either side.
+    swing = 0.6 / (3.0 * math.pi) * np.sin(3.0 * math.pi * times)
+    moved = places - places[0]
+    axis = (
+        moved[:, 2]
+        if way == "up and down"
+        else moved[:, :2] @ (moved[3, :2] / np.linalg.norm(moved[3, :2]))
+    )
+    np.testing.assert_allclose(axis, swing, atol=1e-6)
+
+
 @pytest.mark.parametrize(("said", "sign"), [("right", 1), ("left", -1), (None, 1)])
 def test_a_grating_drifts_where_it_is_told_to(said, sign):
     (does,) = decide_motions((Motion("move", said),), NOUNS["grating"])

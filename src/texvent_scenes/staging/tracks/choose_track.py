@@ -10,10 +10,23 @@ import numpy as np
 from texvent_scenes.description import SPIN_RATE_HZ
 from texvent_scenes.models.activities import ANIMAL_ACTIVITIES
 from texvent_scenes.models.protocol import Model
-from texvent_scenes.staging.tracks.keys import Key, Vector, ahead
+from texvent_scenes.staging.tracks.keys import Vector, ahead
 from texvent_scenes.staging.tracks.motion_plan import MotionPlan
-from texvent_scenes.staging.tracks.phase_keys import BOUNCY, DULL, NO_FLOOR_M, fallen_m, spin_lift
-from texvent_scenes.staging.tracks.phases import LEANING, PATH_KINDS, activity_of, oscillations
+from texvent_scenes.staging.tracks.phase_keys import (
+    BOUNCY,
+    DULL,
+    NO_FLOOR_M,
+    fallen_m,
+    spin_lift,
+    to_and_fro,
+)
+from texvent_scenes.staging.tracks.phases import (
+    LEANING,
+    PATH_KINDS,
+    SWINGS,
+    activity_of,
+    oscillations,
+)
 from texvent_scenes.staging.tracks.track import TO_CAMERA, Term, Track, ballistic, steady
 
 _STAYING = frozenset({"stand", "sit", "lie", "hang", *ANIMAL_ACTIVITIES})
@@ -22,12 +35,8 @@ _ORBIT_SIZES = 1.3
 """Least radius of a circle around nothing, in sizes of who goes along it."""
 _ORBIT_HASTE = 1.5
 """Most multiple of its usual speed at which a body goes round something large in the clip."""
-_ON_GROUND = frozenset({"walk", "run", "crawl", "drive", "roll", "slide"})
-"""Ground motions for which "up and down" means back and forth."""
 _NEAREST = -0.5 * math.pi
 """Direction from the middle of a circle to the camera."""
-_LIFT = 0.5
-"""Greatest usual reach up and down, in sizes of a body."""
 
 
 def choose_track(
@@ -66,7 +75,7 @@ def choose_track(
         return orbit(
             plan, home, orbit_radius(plan, max(model.length, model.width)), phase / math.tau
         )
-    if direction in ("to and fro", "up and down") and kind != "sway":
+    if direction in SWINGS and kind != "sway":
         return _go_and_return(plan, model, home)
     if kind in PATH_KINDS:
         return _go_straight(plan, model, home, phase)
@@ -110,19 +119,9 @@ def orbit(plan: MotionPlan, centre: Vector, radius_m: float, share: float) -> Tr
 
 def _go_and_return(plan: MotionPlan, model: Model, home: Vector) -> Track:
     """To and fro, or up and down: what stands on the ground rises from it."""
-    kind, direction, rate = plan.motion.kind, plan.motion.direction, plan.motion.rate_hz
-    reach = max(0.3 * plan.speed_m_s * plan.duration_s, 0.4 * model.height)
-    is_vertical = direction == "up and down" and kind not in _ON_GROUND
-    if is_vertical:
-        reach = min(reach, _LIFT * max(model.length, model.width, model.height))
-    rate = rate or 1.0 / max(plan.duration_s, 1.0)
-    if plan.motion.speed_m_s is not None:  # the greatest one
-        reach = plan.motion.speed_m_s / (2.0 * math.pi * rate)
-    speed = 2.0 * math.pi * rate * reach
-    along, up = (0.0, speed) if is_vertical else (speed, 0.0)
-    key = Key(1.0, along, climb_m_s=up, activity=activity_of(kind), swing_hz=rate)
-    place = _raised(home, reach) if is_vertical else home
-    return Track(place, plan.yaw, (key,), is_facing=plan.is_facing)
+    key = to_and_fro(plan.motion, plan.speed_m_s, plan.duration_s, model)
+    rise_m = key.climb_m_s / (2.0 * math.pi * key.swing_hz)
+    return Track(_raised(home, rise_m), plan.yaw, (key,), is_facing=plan.is_facing)
 
 
 def _go_straight(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Track:

@@ -23,6 +23,7 @@ from texvent_scenes.staging.tracks.phases import (
     COMING_DOWN,
     GOING,
     PATH_KINDS,
+    SWINGS,
     YAWS,
     needs_steering,
     usual_speed,
@@ -67,7 +68,7 @@ class MotionPlan:
     @property
     def is_path(self) -> bool:
         """Whether it goes from one place to another along a straight line."""
-        is_straight = self.motion.direction not in ("to and fro", "up and down")
+        is_straight = self.motion.direction not in SWINGS
         return self.path is None and self.motion.kind in PATH_KINDS and is_straight
 
     @property

@@ -22,6 +22,7 @@ from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, HOP_PAUSE_S, Key, f
 from texvent_scenes.staging.tracks.phases import (
     PATH_KINDS,
     STEERED,
+    SWINGS,
     YAWS,
     Phase,
     activity_of,
@@ -55,6 +56,11 @@ how deep who walks stands there, and how deep others go, in their own heights.""
 _BRAKING_M_S2 = 6.0
 _CLIMB, _TAKE_OFF, _LANDING = 0.45, 0.32, 0.12
 """Metres up or down per metre along: in general, from a runway, and to it."""
+_ALONG_GROUND = frozenset({"walk", "run", "crawl", "drive", "roll", "slide"})
+"""Motions for which "up and down" means to and fro."""
+_SWUNG, _LIFT = 0.3, 0.5
+"""Usual reach to and fro, in ways that it would go in that time; greatest usual one up and down, in
+sizes of a body."""
 _LIFT_SHARE, _LANDING_SHARE = 0.3, 0.65
 """Shares of a phase after which wheels leave a runway, or meet it."""
 _OF_CAMERA = ("towards", "away")
@@ -130,6 +136,18 @@ def fallen_m(model: Model, duration_s: float) -> float:
     return min(max(height, model.height), max(1.2 * model.height, 0.5))
 
 
+def to_and_fro(motion: Motion, speed_m_s: float, span_s: float, model: Model) -> Key:
+    """Swing along the heading, or up and down: of a stated rate and greatest speed, else once."""
+    reach = max(_SWUNG * speed_m_s * span_s, 0.4 * model.height)
+    is_vertical = motion.direction == "up and down" and motion.kind not in _ALONG_GROUND
+    if is_vertical:
+        reach = min(reach, _LIFT * max(model.length, model.width, model.height))
+    rate = motion.rate_hz or 1.0 / max(span_s, 1.0)
+    speed = motion.speed_m_s if motion.speed_m_s is not None else 2.0 * math.pi * rate * reach
+    along, up = (0.0, speed) if is_vertical else (speed, 0.0)
+    return Key(span_s, along, climb_m_s=up, activity=activity_of(motion.kind), swing_hz=rate)
+
+
 def arc(span: float, speed: float, angle: float, least_m: float) -> list[Key]:
     """Turn by an angle, the rate rising and falling smoothly.
 
@@ -174,7 +192,11 @@ class _KeyBuilder:
     def add(self, phase: Phase) -> None:
         """Append the keys of one phase."""
         motion, span = phase.motion, phase.duration_s
-        if motion.kind in STEERED:
+        if motion.direction in SWINGS and motion.kind in STEERED:
+            key = to_and_fro(motion, abs(self._speed(motion)), span, self._model)
+            self._start(key.speed_m_s)
+            self.keys.append(key)
+        elif motion.kind in STEERED:
             self._travel(motion, span)
         elif motion.kind in ("rise", "sink"):
             self._climb(motion, span)

@@ -20,6 +20,8 @@ PATH_KINDS = TRAVELLING | frozenset({"drive", "fly", "sail", "paddle", "slide", 
 GOING = PATH_KINDS | {"reverse"}
 """Those with a direction of travel."""
 STEERED = GOING | {"turn"}
+SWINGS = frozenset({"to and fro", "up and down"})
+"""Directions of what comes back."""
 _KEYED = STEERED - PATH_KINDS | {"jump", "rise", "sink", "topple", "plunge"}
 
 YAWS = {
