@@ -24,5 +24,5 @@ def made(monkeypatch: pytest.MonkeyPatch) -> str:
 
 def test_rows_have_ranges_words_and_texts(made: str) -> None:
     assert "| `frequency_hz` | number, 0.001 to 100000 | Frequency of modulation, Hz;" in made
-    assert "| `weather` | fog, rain, snow | Weather; left out: fair. |" in made
+    assert "| `weather` | fog, haze, rain, snow | Weather; left out: fair. |" in made
     assert "| `position_m` | 3 numbers | Position x, y, z, m. |" in made

@@ -17,6 +17,7 @@ import numpy as np
 from texvent.camera import PosedCamera, project
 from texvent.sensor import SensorSize
 from texvent_scenes.checks.body_boxes import BodyBoxes, body_of
+from texvent_scenes.checks.edges import find_cut_subject, find_merged, list_covering
 from texvent_scenes.checks.limbs import find_tiny
 from texvent_scenes.checks.looks import find_unlike, is_ball
 from texvent_scenes.checks.phases import (
@@ -144,8 +145,15 @@ def find_unseen(
     bare = {*find_unworn(scene, description, shares)} - unseen - partly
     outside += [f"{description.objects[index].noun} (hardly seen)" for index in sorted(bare)]
     unseen |= bare
+    cut = {*find_cut_subject(scene, description, cameras, times, size)} - unseen
+    outside += [f"{description.objects[index].noun} (cut off most of the clip)" for index in cut]
+    unseen, partly = unseen | cut, partly | cut
+    merged = [*find_merged(scene, description, cameras, times, size)]
+    outside += [f"{description.objects[index].noun} ({apart} of {description.objects[index].count})"
+                for index, apart in merged if index not in unseen]  # fmt: skip
     seen = {number: view.at for number, view in views.items()}
     violations = [*_list_words_of(description, unseen, partly)]
+    violations += [Violation("count", description.objects[index].count, "") for index, _ in merged]
     violations += find_unlike(description, scene.actors, scene.missing)
     violations += _find_unrealised(scene, description, bodies, times)
     violations += find_undone(description, scene.actors, seen, times)
@@ -153,6 +161,7 @@ def find_unseen(
     violations += find_near(scene, description, cameras, times)
     violations += find_misframed(scene, description, cameras, times, size)
     notes += [*list_hidden(scene, seen, cameras, times, size)]
+    notes += list_covering(scene, description, seen, _count_points(size), times)
     notes += () if description.camera.is_moving else list_departures(scene, cameras, times, size)
     return Unseen(
         tuple(dict.fromkeys(outside)), tuple(dict.fromkeys(small)),
@@ -327,8 +336,7 @@ def count_pixels(
     scene: RenderedScene, instances: list[int], size: SensorSize, times: Sequence[float]
 ) -> dict[int, View]:
     """Instance id → what is seen of it, from a grid of points."""
-    step = max(1, math.ceil(math.sqrt(size.width * size.height / MOST_POINTS)))
-    x, y = (np.arange(step // 2, side, step) + 0.5 for side in (size.width, size.height))
+    step, (x, y) = _grid_of(size)
     points = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
     seen = [Counter(_list_seen(scene, time_s, size, points)) for time_s in times]
     views = {}
@@ -342,6 +350,18 @@ def count_pixels(
             views[one] = View(count * step * step, count / max(int(alone[one]), 1),
                               tuple(each[one] for each in seen))  # fmt: skip
     return {one: views[one] for one in instances}
+
+
+def _grid_of(size: SensorSize) -> tuple[int, tuple[Float64Array, Float64Array]]:
+    """Step of the grid of points, pixels, and its x and y."""
+    step = max(1, math.ceil(math.sqrt(size.width * size.height / MOST_POINTS)))
+    x, y = (np.arange(step // 2, side, step) + 0.5 for side in (size.width, size.height))
+    return step, (x, y)
+
+
+def _count_points(size: SensorSize) -> int:
+    """Points of the grid."""
+    return len(_grid_of(size)[1][0]) * len(_grid_of(size)[1][1])
 
 
 def _list_seen(

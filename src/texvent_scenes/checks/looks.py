@@ -42,14 +42,20 @@ def find_unlike(
 
     What has no body is part of another one's, as a coat is, or comes with an act.
     """
+    bodied = {one.object_index for one in actors}
+    ridden = {n for one in description.relations if one.kind == "ride"
+              and one.subject not in bodied for n in one.targets}  # fmt: skip
     for index, thing in enumerate(description.objects):
         if index in missing:
             continue
         bodies = [one.own_parts(_REST) for one in actors if one.object_index == index]
         props = [prop for one in actors for prop in one.props if thing.noun in prop.nouns]
         parts = [part for prop in props for part in prop.draw(0.0)]
-        parts = parts or [part for one in actors if one.noun.name in PERSON_NOUNS
-                          for part in one.own_parts(_REST)]  # fmt: skip
+        parts = parts or [
+            part for one in actors
+            if one.noun.name in PERSON_NOUNS or one.object_index in ridden
+            for part in one.own_parts(_REST)
+        ]  # fmt: skip
         rgb = find_colour(thing.colour, SURFACES) if thing.colour else None
         drawn = bodies or [[part] for part in parts]
         is_so = all if bodies else any

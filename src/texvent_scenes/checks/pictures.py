@@ -31,10 +31,11 @@ from texvent_scenes.staging.tracks.phases import PATH_KINDS
 _SIZE, _LEAST_LEVELS, _WHITE, _LEAST_SHARE = SensorSize(120, 90), 6.0, 30.0, 0.002
 """Size of small pictures; difference of a pixel, of 255, that is seen, and that makes snow white;
 share of those that are."""
-_SEEN = {"has_snow": (_WHITE, _LEAST_SHARE), "clouds": (_LEAST_LEVELS, 0.02),
-         "soft": (25.0, 0.006)}  # fmt: skip
+_SEEN = {"has_snow": (_WHITE, _LEAST_SHARE), "clouds": (_LEAST_LEVELS, 0.02)}
 """Kind → least difference and share that show it, if others than usual: of clouds no panes that
-mirror them, of what is soft, as dust, no trace."""
+mirror them."""
+_SOFT = ((25.0, 0.006), (50.0, 0.002))
+"""The same of what is soft, as dust, of which a faint trace shows nothing: one is enough."""
 _EMITTERS = {kind: one.emitters for kind, one in EFFECTS.items()}
 _LEAST_SCENERY, _LEAST_TELLING, _STIRS = 0.02, 0.006, 0.0004
 """Least shares of a small picture that the scenery of a place changes, furniture of which half at
@@ -116,8 +117,8 @@ def find_unshown(
     place, said, drawn = scene.place, description.place, SmallPictures(scene, times)
     for name, value, other in _list_without(scene, description):
         is_soft = any(one.body == "medium" for one in _EMITTERS.get(str(value), ()))
-        levels, least = _SEEN.get("soft" if is_soft else name, (_LEAST_LEVELS, _LEAST_SHARE))
-        if not drawn.differ(other, least=least, levels=levels):
+        bounds = _SOFT if is_soft else (_SEEN.get(name, (_LEAST_LEVELS, _LEAST_SHARE)),)
+        if not any(drawn.differ(other, least=least, levels=levels) for levels, least in bounds):
             is_kind = name in ("light", "weather", "effect")
             line = name.split("_")[-1] if value is True else f"{name} {value}"
             line = f"{line.replace('_', ' ')}: no pixel shows it"

@@ -21,6 +21,8 @@ from texvent_scenes.staging.actors import Actor, size_of
 from texvent_scenes.staging.compose import ComposedScene
 
 _DYES: tuple[Colour, Colour] = ((1.0, 0.0, 1.0), (0.0, 1.0, 0.0))
+_SHIRT = "shirts"
+"""Part of a body that shirts, jackets and dresses cover."""
 _LEVELS, _LEAST_SHARE = 12.0, 0.0016
 """Difference of a pixel between both colours, of 255, and share of the image from which on clothes
 are seen, for half of the clip at least."""
@@ -32,7 +34,12 @@ def find_unworn(
     """Indices of clothes that are out of view, hidden or tiny for most of the clip."""
     for one in description.relations:
         clothes = [n for n in one.targets if description.objects[n].noun in CLOTHES]
+        has_body = one.subject in {actor.object_index for actor in scene.actors}
         for index in clothes if one.kind == "wear" else ():
+            if not has_body:  # a rider, part of a bicycle, has on a shirt of that colour only
+                if _SHIRT not in CLOTHES[description.objects[index].noun]["painted"]:
+                    yield index
+                continue
             pictures = [
                 SmallPictures(
                     _dyed(scene, one.subject, description.objects[index].noun, dye), times

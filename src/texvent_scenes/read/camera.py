@@ -74,9 +74,29 @@ def claim_way(
     """Leave it to the staged camera whether it goes or turns so with respect to a thing."""
     kinds = {one.value for one in preposition.all("relation")} & word_set("things", "camera_ways")
     kinds |= {"past"} if preposition.text == "across" else set()
+    led = _list_led(draft, move, preposition, targets) if move is not None else []
+    if move is not None and len(led) == 1:
+        move.clear()
+        move |= {"kind": "follow"}
+        draft.parts["camera"] |= {"view": "front", "target": led[0]}
+        draft.claim(preposition, "camera", "before", [None], led)
+        return
     is_led = move is not None and move["kind"] not in ("follow", "zoom", "handheld", "static")
     for kind in sorted(kinds)[:1] if is_led and targets else ():
         draft.claim(preposition, "camera", kind, [None], targets)
+
+
+def _list_led(
+    draft: SceneDraft, move: Mapping[str, Any], preposition: Token, targets: Sequence[int]
+) -> list[int]:
+    """Things that come along behind a camera: "walks backward in front of her"."""
+    kinds, after = {one.value for one in preposition.all("relation")}, preposition.at + 1
+    is_back = move["kind"] == "travel" and move.get("direction") == "backward"
+    if not (is_back and "front" in kinds):
+        return []
+    is_meant = after < len(draft.tokens) and draft.tokens[after].has("pronouns")
+    about = range(len(draft.things)) if is_meant else targets
+    return [index for index in about if draft.goes(index)]
 
 
 def look_over(draft: SceneDraft, preposition: Token, targets: Sequence[int]) -> bool:

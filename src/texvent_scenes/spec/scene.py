@@ -275,7 +275,7 @@ class Place:
     """Colour of an even ground."""
     sky: Surface | None = None
     """Colour of the sky."""
-    weather: Literal["fog", "rain", "snow"] | None = None
+    weather: Literal["fog", "haze", "rain", "snow"] | None = None
     """Weather; left out: fair."""
     clouds: Annotated[float, Between(0.0, 1.0)] | None = None
     """Cloud cover, 0 (clear) to 1 (covered)."""

@@ -41,4 +41,11 @@ def test_who_is_far_away_or_wears_nothing_shows_no_clothes(clothes):
     framing = replace(scene.camera_path.framing, distance_m=150.0)
     far = replace(scene, camera_path=replace(scene.camera_path, framing=framing))
     assert [*find_unworn(far, said, [0.5])] == [1]
-    assert [*find_unworn(replace(scene, actors=()), said, [0.5])] == [1]
+
+
+@pytest.mark.parametrize(("clothes", "is_shown"), [("jacket", True), ("glove", False),
+                                                   ("boot", False)])  # fmt: skip
+def test_a_rider_who_is_part_of_what_he_rides_shows_a_shirt(clothes, is_shown):
+    said, scene, _ = unworn(clothes)
+    found = [*find_unworn(replace(scene, actors=()), said, [0.5])]
+    assert found == ([] if is_shown else [1])

@@ -255,8 +255,8 @@ _LUMA = np.array([0.2126, 0.7152, 0.0722])
 _UNDERWATER_SIGHT_M = 16.0
 _WET = 0.85
 """Share of rain water on roads while it rains, and after it."""
-_FOG_SIGHT = 3.0
-"""In fog, sight (to 37 %) in camera distances."""
+_FOG_SIGHT, _HAZE_SIGHT = 3.0, 9.0
+"""In fog and in haze, sight (to 37 %) in camera distances."""
 
 
 @dataclass(frozen=True)
@@ -410,6 +410,8 @@ def _choose_fog(
     if weather == "fog":
         grey = sum(horizon) / 3.0
         return _FOG_SIGHT * distance_m, mix(horizon, (grey, grey, grey), 0.7)
+    if weather == "haze":
+        return _HAZE_SIGHT * distance_m, horizon
     if weather in ("rain", "snow"):
         return 14.0 * distance_m, horizon
     return math.inf, horizon

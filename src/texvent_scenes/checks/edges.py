@@ -1,0 +1,130 @@
+"""Edge check: a subject at the image's edge, copies that merge, and what covers the picture."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+
+from texvent.camera import PosedCamera, project
+from texvent.sensor import SensorSize
+from texvent_scenes.description import SceneDescription
+from texvent_scenes.rendered_scene import Float64Array
+from texvent_scenes.staging.actors import Actor
+from texvent_scenes.staging.camera.subject import choose_main
+from texvent_scenes.staging.compose import ComposedScene
+
+_INSIDE, _OFTEN = 0.5, 0.4
+"""Share of a subject's box that is inside the image; share of the instants in which it must be."""
+_MERGED, _FEWEST = 0.75, 6
+"""Share of the smaller of two boxes in the image from which on they look like one; copies up to
+which one counts them."""
+_COVERS = 0.2
+"""Share of the image from which on something before the subject covers much of it."""
+
+
+def find_cut_subject(
+    scene: ComposedScene,
+    description: SceneDescription,
+    cameras: Sequence[PosedCamera],
+    times: Sequence[float],
+    size: SensorSize,
+) -> Iterator[int]:
+    """Index of the subject of a moving camera that is at the image's edge for most of the clip."""
+    shot = description.camera
+    if not scene.actors or not shot.is_moving or shot.framing == "close":
+        return
+    main = choose_main(description, scene.actors)
+    own = [one for one in scene.actors if one.object_index == main.object_index]
+    if len(own) > 1 or not main.is_mover or scene.camera_path.passage_s is not None:
+        return
+    inside = [_share_inside(main, time_s, camera, size)
+              for time_s, camera in zip(times, cameras, strict=True)]  # fmt: skip
+    if max(inside) > 0.0 and np.mean(np.array(inside) >= _INSIDE) < _OFTEN:
+        yield main.object_index
+
+
+def find_merged(
+    scene: ComposedScene,
+    description: SceneDescription,
+    cameras: Sequence[PosedCamera],
+    times: Sequence[float],
+    size: SensorSize,
+) -> Iterator[tuple[int, int]]:
+    """Objects whose copies look like fewer, and as how many, for most of the clip."""
+    for index, said in enumerate(description.objects):
+        own = [one for one in scene.actors if one.object_index == index]
+        if not 2 <= len(own) == said.count <= _FEWEST:
+            continue
+        told = [_count_apart([_image_box(one, time_s, camera, size) for one in own])
+                for time_s, camera in zip(times, cameras, strict=True)]  # fmt: skip
+        seen = int(np.median(told))
+        if seen < len(own):
+            yield index, seen
+
+
+def list_covering(
+    scene: ComposedScene,
+    description: SceneDescription,
+    seen: Mapping[int, Sequence[int]],
+    points: int,
+    times: Sequence[float],
+) -> Iterator[str]:
+    """Sentences on bodies before the subject that cover much of the image.
+
+    Args:
+        scene: the staged scene.
+        description: the scene before it was staged.
+        seen: instance id → points of the grid that show it at each instant.
+        points: of the grid.
+        times: instants, s.
+    """
+    if not scene.actors:
+        return
+    main = choose_main(description, scene.actors)
+    tied = {n for one in description.relations for n in (one.subject, *one.targets)
+            if main.object_index in (one.subject, *one.targets)}  # fmt: skip
+    for one in scene.actors:
+        if one.object_index in tied | {main.object_index} or not seen[one.instance]:
+            continue
+        shares = [count / points for count in seen[one.instance]]
+        instants = zip(times, map(scene.camera, times), strict=True)
+        depths = [[(each.middle(at) - camera.position) @ camera.rotation[2] for each in (one, main)]
+                  for at, camera in instants]  # fmt: skip
+        is_before = np.mean([near < far for near, far in depths]) >= _OFTEN
+        if is_before and float(np.median(shares)) >= _COVERS:
+            share = f"{100.0 * float(np.median(shares)):.0f} %"
+            yield f"the {one.noun.name} covers {share} of the picture"
+
+
+def _image_box(one: Actor, time_s: float, camera: PosedCamera, size: SensorSize) -> Float64Array:
+    """[2, 2] least and greatest x and y of a body in the image; empty behind the camera."""
+    seen = project(camera, size, one.corners(time_s))
+    if seen[:, 2].min() <= 0.0:
+        return np.zeros((2, 2))
+    return np.array([seen[:, :2].min(axis=0), seen[:, :2].max(axis=0)])
+
+
+def _share_inside(one: Actor, time_s: float, camera: PosedCamera, size: SensorSize) -> float:
+    """Share of a body's box that is inside the image."""
+    box = _image_box(one, time_s, camera, size)
+    inside = np.clip(box, 0.0, [size.width, size.height])
+    return float(np.prod(np.ptp(inside, axis=0)) / max(float(np.prod(np.ptp(box, axis=0))), 1e-9))
+
+
+def _count_apart(boxes: Sequence[Float64Array]) -> int:
+    """Number of boxes of which none is mostly over one that is counted before."""
+    apart = list[Float64Array]()
+    for box in boxes:
+        area = float(np.prod(np.ptp(box, axis=0)))
+        if area > 0.0 and not any(_overlap(box, one) for one in apart):
+            apart.append(box)
+    return len(apart)
+
+
+def _overlap(box: Float64Array, other: Float64Array) -> bool:
+    """Whether two boxes in the image look like one."""
+    low, high = np.maximum(box[0], other[0]), np.minimum(box[1], other[1])
+    shared = float(np.prod(np.maximum(high - low, 0.0)))
+    areas = [float(np.prod(np.ptp(one, axis=0))) for one in (box, other)]
+    return shared >= _MERGED * max(min(areas), 1e-9)
