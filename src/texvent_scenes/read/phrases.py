@@ -51,8 +51,6 @@ def say_after(
             _push_with(draft, subjects, who)
         elif not draft.set_scene(one, told):
             adverb = one.first("adverb")
-            if one.has("relation") and not one.has("small", "adverb"):  # "close to" the camera
-                draft.mark(one, "lost")
             say_word(draft, one, told if adverb and adverb.value[0] == "placement" else moved)
 
 

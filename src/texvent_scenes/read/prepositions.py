@@ -11,7 +11,7 @@ from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.draft.abilities import MEANS
 from texvent_scenes.read.draft.copies import part_ways
 from texvent_scenes.read.draft.scene_draft import SceneDraft
-from texvent_scenes.read.parsing.groups import Group, Phrase, heads_of, words_of
+from texvent_scenes.read.parsing.groups import Group, Phrase, heads_of
 from texvent_scenes.read.parsing.lexicon import word_set
 from texvent_scenes.read.parsing.tokens import Token
 from texvent_scenes.read.relations import relate_one
@@ -96,11 +96,7 @@ def names_formation(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) 
     is_form = any(one.text in word_set("things", "forms") and not one.has("place") for one in heads)
     own = draft.names(subjects)
     is_drawn = bool(own) and own <= nouns_with("flat pattern")
-    if phrase.preposition.text != "in" or not is_form or is_drawn:
-        return False
-    for token in (phrase.preposition, *words_of(phrase.groups)):
-        draft.mark(token, "lost")
-    return True
+    return phrase.preposition.text == "in" and is_form and not is_drawn
 
 
 def find_mutual(groups: Sequence[Group], after: Sequence[Phrase | Token] = ()) -> list[Token]:
@@ -153,8 +149,6 @@ def go_to_place(
         draft.mark(token, "lost")
         if token.text in ("from", "out of") and does & word_set("things", "off_ground"):
             draft.claim(token, "rise", "", moved)  # "takes off from a runway"
-    if draft.shows(token) and token.text in ("across", *_ALONG):
-        draft.claim(token, "goes", "", moved)
     is_road = token.text in ("on", *_ALONG) and place in (PLACES["road"], PLACES["dirt road"])
     for index in subjects if is_road else ():
         said = token.text == "on" and place is PLACES["road"]  # else a fence stands beside it

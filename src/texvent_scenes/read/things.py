@@ -68,12 +68,10 @@ def name_group(
         head = _see_as_thing(head)
         group = replace(group, head=head)
     if head is not None and (formed := _list_formed(group, head)):
-        draft.mark(head, "lost")
         return [index for one in formed for index in name_group(draft, one, relation, owners)]
     if head is not None and names_place(head, relation) and not is_trajectory(group):
         set_place(draft, group, head, relation)
     elif head is not None and (whole := _find_whole(draft, group)):
-        draft.mark(head, "lost")
         found = name_group(draft, whole, relation, owners)
         return found if relation else []  # what a part does, the whole does not
     elif head is not None and head.has("noun", "pose"):

@@ -158,8 +158,6 @@ class _Parser(GroupReader):
         if verb is None or (verb.is_unknown and verb is self._token(-1)):
             return None
         is_open = bool(verb.verbs("ing")) or clause.about == "nearest"
-        if is_open and token.is_unknown and token.text.endswith("s"):  # "a cat sleeping wugs"
-            return Clause(about="meanwhile", verb=self._take())
         is_state = bool(verb.verbs("ed")) and not verb.verbs("s")  # "a bird perched here flies"
         forms = ("ing", "s", "base") if is_open else ("ing", "s") if is_state else ("ing",)
         is_next = token.verbs(*forms) and self._is_verb(replace(clause, verb=None))

@@ -259,10 +259,7 @@ def _read_phrase(
             found = _without_chance(found, words, end, before)
             found = () if _is_shade(words, end, lexicon) else found
             is_thing = len(phrase) < end + 1 - at  # "approaching the camera", no moving camera
-            dropped = {"noun"} if is_thing else set()
-            if is_thing and words[end] == "camera" and words[at].endswith("ing"):
-                dropped.add("shot")
-            found = tuple(one for one in found if one.kind not in dropped)
+            found = tuple(one for one in found if not (is_thing and one.kind == "noun"))
         if found:
             length, senses = end + 1 - at, found
     is_number = length == 1 and words[at].lstrip("-−.")[:1].isdecimal()
