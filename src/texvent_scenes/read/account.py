@@ -103,7 +103,7 @@ def _list_dependences(draft: SceneDraft, lost: Collection[str]) -> Iterator[Depe
     broken = [clause for clause in clauses if any(text in lost for text, _ in clause)]
     for clause in [words] if 2 * len(broken) > len(clauses) else clauses:
         others = (pair for pair in clause if not pair[1].has("noun", "place", "field"))
-        ties = [text for text, one in others if one.is_view or one.has(*_TIES)]
+        ties = [text for text, one in others if one.says("scene", "camera") or one.has(*_TIES)]
         whole = tuple(text for text, one in clause if not one.has("field"))
         yield Dependence(tuple(ties), whole)  # a colour that is lost changes nothing else
         before, fields = "", list[str]()
@@ -186,7 +186,7 @@ def _hang_up(draft: SceneDraft) -> None:
     hung, walls = nouns_with("hangs on a wall"), nouns_with("only a background")
     for token in draft.tokens:
         wall, _, rest = token.text.partition(" ")
-        named = {one.value.noun for one in token.all("noun")} & hung if rest else set()
+        named = token.nouns & hung if rest else set()
         bare = [one for one in draft.find(named) if not draft.things[one]["relations"]]
         for index in bare[:1] if wall in walls else ():
             draft.relate(index, "on", [draft.add(wall)])

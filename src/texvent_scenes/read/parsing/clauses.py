@@ -112,7 +112,11 @@ class _Parser(GroupReader):
         if clause.verb is not None and self._token().is_unknown and self._has_object():
             return Clause(about="same", verb=self._take())  # "and wugs it"
         ahead = 1 if self._token().has("articles") else 0
-        starts = self._starts_group() or self._token(ahead).has("camera") or self._token().is_time
+        starts = (
+            self._starts_group()
+            or self._token(ahead).has("camera")
+            or self._token().says("adverb", "start_s")
+        )
         return Clause() if starts and (clause.verb or clause.after) else None
 
     def _go_on(self, clause: Clause) -> Clause | None:
@@ -272,7 +276,7 @@ class _Parser(GroupReader):
             return replace(clause, about="same" if is_subject else clause.about, is_back=is_back)
         if not token.has("adverb"):
             return None
-        if token.is_time and clause == Clause():
+        if token.says("adverb", "start_s") and clause == Clause():
             return Clause(about="same", after=(self._take(),))
         return replace(clause, after=(*clause.after, self._take()))
 
@@ -333,7 +337,7 @@ class _Parser(GroupReader):
     def _is_like(self, preposition: Token) -> bool:
         """Whether a preposition is here like the one before, or one with a pronoun."""
         token, positions = self._token(), word_set("things", "positions") - {"between"}
-        kinds = {one.value for each in (preposition, token) for one in each.all("relation")}
+        kinds = preposition.relations | token.relations
         is_back = preposition.text != "with" and self._token(1).has("pronouns")
         is_both = token.has("relation") and preposition.has("relation")
         return is_both and (token.text == preposition.text or is_back or kinds <= positions)
