@@ -153,14 +153,6 @@ def lands(staged: StagedClip, claim: Claim) -> bool:
                for one in others)  # fmt: skip
 
 
-def goes(staged: StagedClip, claim: Claim) -> bool:
-    """Whether it gets on by its own size at least, or is carried along: "down a river"."""
-    return all(
-        np.linalg.norm(one.middle - one.middle[0], axis=1).max() >= one.size.max()
-        for one in staged.own_boxes(claim)
-    )
-
-
 def goes_along(staged: StagedClip, claim: Claim) -> bool:
     """Whether a good part of its way is beside a body, or a row: a short fence is only passed."""
     ends = np.array([end for n in claim.targets for one in staged.boxes[n]

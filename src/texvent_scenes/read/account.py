@@ -17,7 +17,7 @@ from texvent_scenes.read.draft.copies import OPPOSITE, halve, take_turns
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.parsing.lexicon import deeds, word_set
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
-from texvent_scenes.spec.data import PLACING, scene_from_data
+from texvent_scenes.spec.data import scene_from_data
 from texvent_scenes.spec.scene import MAX_BODIES, Scene, number_nouns
 
 
@@ -58,7 +58,6 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
     _do_deeds(draft)
     _find_opponents(draft)
     _hang_up(draft)
-    _lead_round(draft)
     _turn_marks(draft)
     _bring_home(draft)
     _limit_counts(draft)
@@ -104,7 +103,7 @@ def _list_dependences(draft: SceneDraft, lost: Collection[str]) -> Iterator[Depe
     broken = [clause for clause in clauses if any(text in lost for text, _ in clause)]
     for clause in [words] if 2 * len(broken) > len(clauses) else clauses:
         others = (pair for pair in clause if not pair[1].has("noun", "place", "field"))
-        ties = [text for text, one in others if one.is_view or one.has(*_TIES)]
+        ties = [text for text, one in others if one.says("scene", "camera") or one.has(*_TIES)]
         whole = tuple(text for text, one in clause if not one.has("field"))
         yield Dependence(tuple(ties), whole)  # a colour that is lost changes nothing else
         before, fields = "", list[str]()
@@ -187,7 +186,7 @@ def _hang_up(draft: SceneDraft) -> None:
     hung, walls = nouns_with("hangs on a wall"), nouns_with("only a background")
     for token in draft.tokens:
         wall, _, rest = token.text.partition(" ")
-        named = {one.value.noun for one in token.all("noun")} & hung if rest else set()
+        named = token.nouns & hung if rest else set()
         bare = [one for one in draft.find(named) if not draft.things[one]["relations"]]
         for index in bare[:1] if wall in walls else ():
             draft.relate(index, "on", [draft.add(wall)])
@@ -205,16 +204,6 @@ def _do_deeds(draft: SceneDraft) -> None:
             if deeds().get(token.text) == deed:
                 draft.fates[token.at] = "shown"
                 draft.claim(token, "activity", deed, [index])
-
-
-def _lead_round(draft: SceneDraft) -> None:
-    """Have what goes in circles do so on the ring there is: "a roundabout with cars circling"."""
-    rings = draft.find(trait_values("circled on").keys())
-    for index, one in enumerate(draft.things if rings else ()):
-        kinds = [each["kind"] for each in one["motions"]]
-        told = draft.acts([index]) & (PLACING | {"around"})
-        if kinds == ["orbit"] and not told:
-            draft.relate(index, "around", rings[:1])
 
 
 def _bring_home(draft: SceneDraft) -> None:
@@ -294,11 +283,6 @@ def _give_each(draft: SceneDraft) -> None:
             people[target] += int(one["count"])
     for target in (one for one in plural if people[one] > 1):
         draft.things[target]["count"] = people[target]
-    for one in draft.things:
-        worn = (n for each in one["relations"] if each["kind"] == "wear" for n in each["to"])
-        for target in (draft.things[n] for n in worn):
-            if target["noun"] in draft.nouns[target["noun"]].plurals:
-                target["count"] = one["count"]
 
 
 def _build(draft: SceneDraft, prompt: str) -> Scene:

@@ -8,7 +8,7 @@ from functools import cache
 
 from texvent_scenes.models.activities import ANIMAL_ACTIVITIES, DONE_SEATED, HAND_NOUNS, TIMED
 from texvent_scenes.models.people.outfit import list_props
-from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
+from texvent_scenes.models.tables import nouns_with, trait_values
 from texvent_scenes.read.draft.motions import BLINK_HZ, add_motion
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.outcomes import EGO, can_arrive, claim_act, meet
@@ -36,8 +36,6 @@ def perform(
     if act is None or (has_object and not objects and act.who in ("plain", "body")):
         return None  # what it is done to is not known
     draft.show(verb)
-    for index in objects if act.relation == "hit" else ():
-        _choose_ball(draft, subjects, index)
     if act.brings not in ("", EGO) and not objects:
         objects = [draft.add(act.brings)]
     if act.end_pace == 0.0 and act.kind == "stand" and can_arrive(draft, subjects):
@@ -97,9 +95,6 @@ def _choose_act(
     if verb.text in _list_performing():
         done = {draft.things[one].get("deed", "") for one in subjects} - {""}
         acts[:0] = [VerbSense("person", one) for one in done]
-    tools = [one for one in acts if one.who == "person" and _list_tools(one.kind)]
-    if act := _act_as_person(draft, tools, subjects, objects, has_object=has_object):
-        return act
     act = next((one for one in acts if draft.fits(one, subjects, objects, has_object)), None)
     act = act or _act_as_person(draft, acts, subjects, objects, has_object=has_object)
     is_sent = act is None and not has_object and _are_sent(draft, verb, subjects)
@@ -111,15 +106,6 @@ def _are_sent(draft: SceneDraft, verb: Token, subjects: Sequence[int]) -> bool:
     is_struck = any(one.value.relation in SENT for one in verb.verbs("ed"))
     nouns = draft.names(subjects)
     return is_struck and bool(nouns) and nouns <= trait_values("struck with").keys() | _KICKED
-
-
-def _choose_ball(draft: SceneDraft, subjects: Sequence[int], index: int) -> None:
-    """Take the ball of who is named by a sport: "a golfer hits a ball"."""
-    thing = draft.things[index]
-    for deed in (draft.things[one].get("deed") for one in subjects):
-        if deed and thing["noun"] == "ball":
-            thing["noun"] = trait_value("ball of", deed) or thing["noun"]
-            draft.things[subjects[0]]["motions"] = [{"kind": deed}]
 
 
 def _act_as_person(

@@ -1,22 +1,215 @@
-"""Moves of the camera that clauses say."""
+"""Clauses about the camera: which they are, how they move it, and past what."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from texvent_scenes.models.tables import nouns_with, read_table
 from texvent_scenes.read.draft.abilities import MEANS
 from texvent_scenes.read.draft.motions import split_move, turn_by
-from texvent_scenes.read.draft.places import names_place
 from texvent_scenes.read.draft.scene_draft import SceneDraft
+from texvent_scenes.read.draft.setting import names_place, set_scene
 from texvent_scenes.read.parsing.clauses import Clause
-from texvent_scenes.read.parsing.groups import Phrase, heads_of, nouns_of, words_of
-from texvent_scenes.read.parsing.lexicon import word_set
-from texvent_scenes.read.parsing.tokens import Token
+from texvent_scenes.read.parsing.groups import Group, Phrase, heads_of, nouns_of
+from texvent_scenes.read.parsing.lexicon import Sense, lexicon_of, word_set
+from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
+from texvent_scenes.read.phrases import apply_phrase
+from texvent_scenes.read.prepositions import is_standpoint
+from texvent_scenes.read.things import name_group
 
 _STAYING = frozenset({"handheld", "roll", "truck"})
 """Moves of a camera over what it looks at."""
+_FIRST_PERSON = ("camera", "view", "first person")
+
+
+def is_ego(draft: SceneDraft, clause: Clause) -> bool:
+    """Whether a camera goes that is not named: "driving through a city"."""
+    verbs = clause.verb.verbs("ing") if clause.verb is not None else ()
+    travels = any(one.value.kind.startswith("travel") for one in verbs)
+    is_place = all(one.head and names_place(one.head, "") for one in clause.subjects)
+    before = draft.beside(clause.verb or NO_TOKEN, -1)
+    kinds = {one.value[1] for one in before.all("scene")} | {one.kind for one in before.senses}
+    is_own = before.is_unknown or kinds & {"noun", "effect", "verb", "weather"}
+    if is_own and not kinds & {"shot", "style"}:
+        return False  # "rain drops running down a pane"
+    is_new = not draft.things and clause.about not in ("nearest", "company")
+    return travels and is_place and is_new
+
+
+def sit_in(draft: SceneDraft, clause: Clause) -> Clause | None:
+    """The clause of a driver's view of who goes through a passage, said of the camera itself.
+
+    "A car exits a tunnel, dashcam view"; None: no camera is in a vehicle.
+    """
+    shots = {sense.value for token in draft.tokens for sense in token.all("shot")}
+    nouns = nouns_of(clause.subjects)
+    is_driven = [draft.nouns[one].motion for one in nouns] == ["drive"]
+    is_driven &= not any(group.is_plural for group in clause.subjects)
+    if "travel forward drive" not in shots or draft.things or not (is_driven and clause.verb):
+        return None
+    way, drive = Sense("relation", "through"), lexicon_of(draft.nouns)[("driving",)]
+    first = Phrase(Token("through", clause.verb.at), clause.objects)
+    after = [one if isinstance(one, Token) or not _names_passage(one.groups) else
+             Phrase(replace(one.preposition, senses=(way,)), one.groups)
+             for one in (first, *clause.after) if isinstance(one, Token) or one.groups]  # fmt: skip
+    if not any(isinstance(one, Phrase) and _names_passage(one.groups) for one in after):
+        return None
+    draft.mark(clause.subjects[0].head or NO_TOKEN, "camera")
+    verb = replace(clause.verb, senses=drive)
+    return replace(clause, subjects=(), objects=(), verb=verb, after=tuple(after))
+
+
+def look_out(draft: SceneDraft, clause: Clause) -> Clause | None:
+    """The clause of a first-person view of who goes somewhere, said of the camera itself.
+
+    "First-person view of a drone flying through a forest"; None: it is another view or an act.
+    """
+    said = {sense.value for token in draft.tokens for sense in token.all("scene")}
+    (first, *others) = clause.subjects or (None,)
+    verb = clause.verb
+    if _FIRST_PERSON not in said or first is None or others or verb is None:
+        return None
+    known = [one["noun"] for one in draft.things]
+    if known and not (clause.about == "company" and first.noun and known == [first.noun.noun]):
+        return None
+    goes = [one for one in verb.all("verb") if one.value.who == "camera"]
+    is_going = any(one.value.kind.startswith("travel") for one in goes) and not clause.objects
+    if first.noun is None or first.is_plural or first.head is None or not is_going:
+        return None
+    if not draft.nouns[first.noun.noun].speed_m_s:
+        return None
+    draft.mark(first.head, "camera")
+    draft.things.clear()
+    draft.claims.clear()
+    means = {"fly": "flying", "drive": "driving"}.get(draft.nouns[first.noun.noun].motion)
+    if means and not any(one.value.kind in MEANS for one in verb.all("verb")):  # "races"
+        verb = replace(verb, senses=lexicon_of(draft.nouns)[(means,)])
+    return replace(clause, subjects=(), about="", verb=verb)
+
+
+def _names_passage(groups: Sequence[Group]) -> bool:
+    """Whether some of the groups name what has a way through."""
+    return bool({*nouns_of(groups)} & nouns_with("passage"))
+
+
+def is_shot(clause: Clause) -> bool:
+    """Whether a clause without a subject goes on about a shot: "6-DoF motion over a poster"."""
+    if clause.subjects or clause.objects or clause.about not in ("", "same"):
+        return False
+    adverbs = [one for one in clause.after if isinstance(one, Token) and one.has("adverb")]
+    if any(one.says("adverb", "speed_m_s") for one in adverbs):
+        return False  # it is that of the view
+    words = [one for one in clause.after if one not in adverbs]
+    first = words[0] if words else None
+    if not isinstance(first, Token) or not (first.has("shot") or first.says("scene", "camera")):
+        return False
+    return clause.verb is None or first.at < clause.verb.at
+
+
+def apply_to_camera(draft: SceneDraft, clause: Clause, *, is_own: bool) -> None:
+    """Move the camera as a clause says, and name what is in view."""
+    targets = list[int]()
+    move = find_move(draft, clause, is_ego=is_own)
+    for group in clause.subjects if clause.about != "company" else ():
+        name_group(draft, group, "in")
+    for group in clause.objects if not is_own else ():
+        targets += name_group(draft, group)
+    _lead_followed(draft, move, targets)
+    for one in clause.after:
+        if not isinstance(one, Phrase):
+            set_scene(draft, one)
+        elif is_standpoint(draft, one, move or {}):
+            continue
+        elif targets:  # as "orbits a car in front of a house"
+            apply_phrase(draft, one, targets, targets)
+        else:
+            found, kind = apply_phrase(draft, one, [], []), one.preposition.relation
+            targets += found if kind in word_set("things", "aims") else []
+            turns = move is not None and move["kind"] in ("pan", "tilt")
+            is_swept = turns and one.preposition.text in word_set("things", "swept")
+            targets += found if is_swept else []
+            is_side = bool(found) and kind in word_set("things", "sides") and not is_swept
+            if found and kind in ("through", "out of"):
+                is_side = move is None or not go_through(draft, move, one.preposition, found)
+            is_over = look_over(draft, one.preposition, found)
+            claim_way(draft, move, one.preposition, [] if is_over else found)
+            heads = heads_of(one.groups)
+            words = heads or [each for group in one.groups for each in group.unknown]
+            is_side |= bool(one.groups) and not any(map(draft.shows, words))
+            is_side |= kind == "front" and any(each["kind"] == "travel" for each in draft.moves)
+            is_side &= not is_over
+            is_place = any(each.has("place") for each in heads)
+            is_side |= is_place and not found and kind in ("out of", "into")  # it stays there
+            goes = any(each["kind"] == "travel" for each in (*draft.moves, move or {"kind": ""}))
+            is_side |= goes and bool(found) and kind in ("up", "down")  # it keeps its height
+            draft.mark(one.preposition, "lost" if is_side else "shown")  # nothing is put there
+    if move is not None:
+        draft.add_move(move)
+        if targets:
+            draft.parts["camera"].setdefault("target", targets[0])
+        _lead_followed(draft, move, targets)
+
+
+def _lead_followed(
+    draft: SceneDraft, move: Mapping[str, Any] | None, targets: Sequence[int]
+) -> None:
+    """Let things go that a camera follows."""
+    followed = targets if move is not None and move["kind"] == "follow" else []
+    for index in filter(draft.can_go, followed):
+        thing = draft.things[index]
+        thing["motions"] = thing["motions"] or [{"kind": "move"}]
+
+
+def find_move(draft: SceneDraft, clause: Clause, *, is_ego: bool = False) -> dict[str, Any] | None:
+    """The move of a clause with its direction and pace; these words are counted as shown.
+
+    None where the verb is no move of a camera.
+    """
+    verb = clause.verb
+    senses = [one.value for one in verb.all("verb")] if verb is not None else []
+    moves = [one.kind for one in senses if one.who == "camera"]
+    if verb is None or not moves:
+        return None
+    draft.show(verb)
+    moves = [one for one in moves if one.startswith("travel")] if is_ego else moves
+    move = split_move(moves[0])
+    turned = read_table("words", "read")["turned_moves"]
+    for one in clause.after:
+        if isinstance(one, Phrase):
+            move = _lead(move, one)
+            continue
+        name, value = one.value("adverb")
+        if name == "direction":
+            phrase = f"{move['kind']} {value}"
+            side = split_move(turned.get(phrase, phrase))
+            name, move = ("pace", move | side) if "direction" in side else ("", move)
+        elif name in ("pace", "speed_m_s"):
+            move[name] = move.get("pace", 1.0) * value if name == "pace" else value
+        elif (led := turn_by(move, name, value)) != move:
+            name, move = "pace", led
+        if name in ("pace", "speed_m_s"):
+            draft.show(one)
+    means = [one.kind for one in senses if one.who == "plain" and one.kind in MEANS]
+    if move["kind"] == "travel" and means:
+        move["means"] = means[0]
+    return move
+
+
+def _lead(move: dict[str, Any], phrase: Phrase) -> dict[str, Any]:
+    """The move after a preposition: around what it shows, towards it, or ahead through a place."""
+    preposition, heads = phrase.preposition, [group.head for group in phrase.groups]
+    kinds, pace = preposition.relations, move.get("pace", 1.0)
+    if preposition.text == "around" and move["kind"] in ("truck", "travel"):
+        return {"kind": "orbit", "pace": pace}
+    is_open = move["kind"] == "truck" and "direction" not in move
+    if move["kind"] in ("tilt", "pan") and "direction" not in move:
+        return move | split_move(f"{move['kind']} {preposition.text.partition(' ')[0]}")  # "up to"
+    is_place = bool(heads) and all(head and names_place(head, preposition.text) for head in heads)
+    if is_open and is_place and preposition.text in word_set("things", "onward"):
+        return {**split_move("travel forward"), "pace": pace}
+    return {**split_move("dolly in"), "pace": pace} if is_open and "towards" in kinds else move
 
 
 def go_through(
@@ -38,41 +231,11 @@ def go_through(
     return True
 
 
-def is_standpoint(draft: SceneDraft, phrase: Phrase, move: Mapping[str, Any] | None = None) -> bool:
-    """Whether it says from where something is seen, which puts nothing there; its words are lost.
-
-    As in "seen from a bridge", "follows from a vehicle"; what a camera leaves is seen.
-    """
-    preposition, kind = phrase.preposition, (move or {}).get("kind")
-    leaves = kind in ("pan", "tilt", "zoom") or (move or {}).get("direction") in ("out", "up")
-    is_so = preposition.text.startswith("from") and bool(phrase.groups) and not leaves
-    before = draft.beside(preposition, -1)
-    is_view = before.text in word_set("things", "viewed") or before.has("shot")
-    if not is_so or (move is None and not is_view):
-        return False
-    heads = heads_of(phrase.groups)
-    if heads and all(one.has("place") for one in heads):
-        return False  # "seen from a beach" is there
-    for token in (preposition, *words_of(phrase.groups)):
-        draft.mark(token, "lost")
-    nouns = nouns_of(phrase.groups)
-    after = draft.tokens[heads[-1].at + 1 :][:1] if heads else ()
-    if any(draft.nouns[one].speed_m_s for one in nouns) and any(map(is_course, after)):
-        draft.mark(preposition, "shown")
-        draft.mark(heads[-1], "camera")  # "view from a drone flying over a field"
-    return True
-
-
-def is_course(token: Token) -> bool:
-    """Whether a participle says where a camera may go with what it is on."""
-    return any(one.value.who == "camera" for one in token.verbs("ing"))
-
-
 def claim_way(
     draft: SceneDraft, move: dict[str, Any] | None, preposition: Token, targets: Sequence[int]
 ) -> None:
     """Leave it to the staged camera whether it goes or turns so with respect to a thing."""
-    kinds = {one.value for one in preposition.all("relation")} & word_set("things", "camera_ways")
+    kinds = preposition.relations & word_set("things", "camera_ways")
     kinds |= {"past"} if preposition.text == "across" else set()
     led = _list_led(draft, move, preposition, targets) if move is not None else []
     if move is not None and len(led) == 1:
@@ -101,7 +264,7 @@ def _list_led(
 
 def look_over(draft: SceneDraft, preposition: Token, targets: Sequence[int]) -> bool:
     """Let a camera that stays about look down on things, or at the face of what is upright."""
-    kinds = {one.value for one in preposition.all("relation")}
+    kinds = preposition.relations
     moves = {one["kind"] for one in draft.moves}
     if "above" not in kinds or not targets or not moves or moves - _STAYING:
         return False
@@ -111,53 +274,3 @@ def look_over(draft: SceneDraft, preposition: Token, targets: Sequence[int]) -> 
         draft.parts["camera"].setdefault("view", "top")
     draft.claim(preposition, "camera", "before" if is_faced else "over", [None], targets)
     return True
-
-
-def _lead(move: dict[str, Any], phrase: Phrase) -> dict[str, Any]:
-    """The move after a preposition: around what it shows, towards it, or ahead through a place."""
-    preposition, heads = phrase.preposition, [group.head for group in phrase.groups]
-    kinds, pace = {one.value for one in preposition.all("relation")}, move.get("pace", 1.0)
-    if preposition.text == "around" and move["kind"] in ("truck", "travel"):
-        return {"kind": "orbit", "pace": pace}
-    is_open = move["kind"] == "truck" and "direction" not in move
-    if move["kind"] in ("tilt", "pan") and "direction" not in move:
-        return move | split_move(f"{move['kind']} {preposition.text.partition(' ')[0]}")  # "up to"
-    is_place = bool(heads) and all(head and names_place(head, preposition.text) for head in heads)
-    if is_open and is_place and preposition.text in word_set("things", "onward"):
-        return {**split_move("travel forward"), "pace": pace}
-    return {**split_move("dolly in"), "pace": pace} if is_open and "towards" in kinds else move
-
-
-def find_move(draft: SceneDraft, clause: Clause, *, is_ego: bool = False) -> dict[str, Any] | None:
-    """The move of a clause with its direction and pace; these words are counted as shown.
-
-    None where the verb is no move of a camera.
-    """
-    verb = clause.verb
-    senses = [one.value for one in verb.all("verb")] if verb is not None else []
-    moves = [one.kind for one in senses if one.who == "camera"]
-    if verb is None or not moves:
-        return None
-    draft.show(verb)
-    moves = [one for one in moves if one.startswith("travel")] if is_ego else moves
-    move = split_move(moves[0])
-    turned = read_table("words", "read")["turned_moves"]
-    for one in clause.after:
-        if isinstance(one, Phrase):
-            move = _lead(move, one)
-            continue
-        name, value = sense.value if (sense := one.first("adverb")) else ("", "")
-        if name == "direction":
-            phrase = f"{move['kind']} {value}"
-            side = split_move(turned.get(phrase, phrase))
-            name, move = ("pace", move | side) if "direction" in side else ("", move)
-        elif name in ("pace", "speed_m_s"):
-            move[name] = move.get("pace", 1.0) * value if name == "pace" else value
-        elif (led := turn_by(move, name, value)) != move:
-            name, move = "pace", led
-        if name in ("pace", "speed_m_s"):
-            draft.show(one)
-    means = [one.kind for one in senses if one.who == "plain" and one.kind in MEANS]
-    if move["kind"] == "travel" and means:
-        move["means"] = means[0]
-    return move

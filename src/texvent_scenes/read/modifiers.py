@@ -17,6 +17,7 @@ from texvent_scenes.read.draft.abilities import MEANS
 from texvent_scenes.read.draft.copies import part_off, part_ways
 from texvent_scenes.read.draft.motions import add_motion, set_field
 from texvent_scenes.read.draft.scene_draft import SceneDraft
+from texvent_scenes.read.draft.setting import set_scene
 from texvent_scenes.read.parsing.groups import Group
 from texvent_scenes.read.parsing.lexicon import Sense, VerbSense, states, word_set
 from texvent_scenes.read.parsing.tokens import Token
@@ -85,7 +86,7 @@ def say_word(draft: SceneDraft, token: Token, subjects: Sequence[int]) -> None:
         is_lamp = field == "rate_hz" and all("blink_hz" in one for one in things)
         draft.claim(token, "shine" if is_lamp else SEEN, "", subjects)
     else:
-        if not draft.set_scene(token, things) and things and token.verbs("ing", "ed"):
+        if not set_scene(draft, token, things) and things and token.verbs("ing", "ed"):
             perform(draft, token, subjects, [], has_object=False)
         return
     draft.show(token)

@@ -6,9 +6,8 @@ from collections.abc import Sequence
 
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.tables import nouns_with, trait_value
-from texvent_scenes.read.camera import is_standpoint
-from texvent_scenes.read.draft.places import names_place
 from texvent_scenes.read.draft.scene_draft import SceneDraft
+from texvent_scenes.read.draft.setting import names_place, set_scene
 from texvent_scenes.read.modifiers import say_word
 from texvent_scenes.read.parsing.groups import Phrase, heads_of, words_of
 from texvent_scenes.read.parsing.lexicon import word_set
@@ -22,6 +21,7 @@ from texvent_scenes.read.prepositions import (
     find_relation,
     go_to_place,
     is_rained_on,
+    is_standpoint,
     keep_distance,
     names_formation,
 )
@@ -49,11 +49,9 @@ def say_after(
             last = one.preposition
             keep_distance(draft, last, who)
             _push_with(draft, subjects, who)
-        elif not draft.set_scene(one, told):
-            adverb = one.first("adverb")
-            if one.has("relation") and not one.has("small", "adverb"):  # "close to" the camera
-                draft.mark(one, "lost")
-            say_word(draft, one, told if adverb and adverb.value[0] == "placement" else moved)
+        elif not set_scene(draft, one, told):
+            is_placed = one.value("adverb")[0] == "placement"
+            say_word(draft, one, told if is_placed else moved)
 
 
 def _push_with(draft: SceneDraft, subjects: Sequence[int], riders: Sequence[int]) -> None:
@@ -81,8 +79,7 @@ def _choose_placed(
     draft: SceneDraft, phrase: Phrase, last: Token, subjects: list[int], told: list[int]
 ) -> list[int]:
     """Objects of a phrase: of "a cup on a plate on a table" the plate, "next to" one both."""
-    kind, before = (str(one and one.value) for one in
-                    (phrase.preposition.first("relation"), last.first("relation")))  # fmt: skip
+    kind, before = phrase.preposition.relation, last.relation
     if kind == "with" and draft.beside(phrase.preposition, -1).has("noun"):
         others = {draft.things[index]["noun"] for index in {*draft.last.nearest} - {*subjects}}
         if others and others <= PERSON_NOUNS | word_set("things", "vessels"):

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 from texvent_scenes.description import SEEN
 from texvent_scenes.models.activities import PERSON_NOUNS, TO_AND_FROM_SEATS
@@ -11,7 +12,7 @@ from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.draft.abilities import MEANS
 from texvent_scenes.read.draft.copies import part_ways
 from texvent_scenes.read.draft.scene_draft import SceneDraft
-from texvent_scenes.read.parsing.groups import Group, Phrase, heads_of, words_of
+from texvent_scenes.read.parsing.groups import Group, Phrase, heads_of, nouns_of, words_of
 from texvent_scenes.read.parsing.lexicon import word_set
 from texvent_scenes.read.parsing.tokens import Token
 from texvent_scenes.read.relations import relate_one
@@ -44,8 +45,7 @@ _SMALL_SET = 0.45
 def find_relation(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> str:
     """The relation that a preposition means after what the subjects do; "" = none."""
     token = phrase.preposition
-    sense = token.first("relation")
-    kind = sense.value if sense is not None else ""
+    kind = token.relation
     does = draft.does(subjects)
     kind = "on" if token.text == "onto" and does & _LANDING else kind
     for motions in (draft.things[one]["motions"] for one in subjects if token.text == "onto"):
@@ -77,7 +77,7 @@ def lose_drift(draft: SceneDraft, after: Sequence[Phrase | Token]) -> None:
     """Report ways of an effect, which particles go only if they are blown along."""
     is_blown = bool(draft.effects) and draft.effects[-1]["kind"] in word_set("things", "blown")
     for token in (one.preposition for one in after if isinstance(one, Phrase)):
-        kinds = {one.value for one in token.all("relation")}
+        kinds = token.relations
         ways = kinds & word_set("things", "ways")
         is_along = token.text in ("across", *_ALONG)
         is_so = (is_blown and is_along) or any(is_rained_on(draft, token, one) for one in kinds)
@@ -96,11 +96,7 @@ def names_formation(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) 
     is_form = any(one.text in word_set("things", "forms") and not one.has("place") for one in heads)
     own = draft.names(subjects)
     is_drawn = bool(own) and own <= nouns_with("flat pattern")
-    if phrase.preposition.text != "in" or not is_form or is_drawn:
-        return False
-    for token in (phrase.preposition, *words_of(phrase.groups)):
-        draft.mark(token, "lost")
-    return True
+    return phrase.preposition.text == "in" and is_form and not is_drawn
 
 
 def find_mutual(groups: Sequence[Group], after: Sequence[Phrase | Token] = ()) -> list[Token]:
@@ -153,8 +149,6 @@ def go_to_place(
         draft.mark(token, "lost")
         if token.text in ("from", "out of") and does & word_set("things", "off_ground"):
             draft.claim(token, "rise", "", moved)  # "takes off from a runway"
-    if draft.shows(token) and token.text in ("across", *_ALONG):
-        draft.claim(token, "goes", "", moved)
     is_road = token.text in ("on", *_ALONG) and place in (PLACES["road"], PLACES["dirt road"])
     for index in subjects if is_road else ():
         said = token.text == "on" and place is PLACES["road"]  # else a fence stands beside it
@@ -164,7 +158,7 @@ def go_to_place(
 
 def _shows_way(draft: SceneDraft, token: Token, place: PlaceModel, subjects: Sequence[int]) -> bool:
     """Whether a place shows a preposition: no "towards a park", "by a forest"."""
-    kinds = {one.value for one in token.all("relation")}
+    kinds = token.relations
     if token.text in ("across", "down", "up"):
         return not subjects or any(draft.things[one]["motions"] for one in subjects)
     if "above" in kinds:
@@ -221,7 +215,7 @@ def set_before(draft: SceneDraft, token: Token, noun: str, subjects: Sequence[in
 def keep_distance(draft: SceneDraft, preposition: Token, subjects: Sequence[int]) -> None:
     """Apply the distance before a preposition: "2 m behind a car"."""
     token = draft.beside(preposition, -1)
-    name, value = said.value if (said := token.first("adverb")) else ("", None)
+    name, value = token.value("adverb")
     for index in subjects if name == "distance_m" else ():
         for row in draft.things[index]["relations"][-1:]:
             if row["kind"] in SPACED:
@@ -251,3 +245,33 @@ def is_rained_on(draft: SceneDraft, token: Token, kind: str) -> bool:
     is_weather = {one.value[1] for one in before.all("scene")} & {"weather", "has_snow"}
     is_all_over = {one.value for one in before.all("effect")} & word_set("things", "all_over")
     return bool(is_weather or is_all_over) and kind in _RAINED_ON
+
+
+def is_standpoint(draft: SceneDraft, phrase: Phrase, move: Mapping[str, Any] | None = None) -> bool:
+    """Whether it says from where something is seen, which puts nothing there; its words are lost.
+
+    As in "seen from a bridge", "follows from a vehicle"; what a camera leaves is seen.
+    """
+    preposition, kind = phrase.preposition, (move or {}).get("kind")
+    leaves = kind in ("pan", "tilt", "zoom") or (move or {}).get("direction") in ("out", "up")
+    is_so = preposition.text.startswith("from") and bool(phrase.groups) and not leaves
+    before = draft.beside(preposition, -1)
+    is_view = before.text in word_set("things", "viewed") or before.has("shot")
+    if not is_so or (move is None and not is_view):
+        return False
+    heads = heads_of(phrase.groups)
+    if heads and all(one.has("place") for one in heads):
+        return False  # "seen from a beach" is there
+    for token in (preposition, *words_of(phrase.groups)):
+        draft.mark(token, "lost")
+    nouns = nouns_of(phrase.groups)
+    after = draft.tokens[heads[-1].at + 1 :][:1] if heads else ()
+    if any(draft.nouns[one].speed_m_s for one in nouns) and any(map(is_course, after)):
+        draft.mark(preposition, "shown")
+        draft.mark(heads[-1], "camera")  # "view from a drone flying over a field"
+    return True
+
+
+def is_course(token: Token) -> bool:
+    """Whether a participle says where a camera may go with what it is on."""
+    return any(one.value.who == "camera" for one in token.verbs("ing"))

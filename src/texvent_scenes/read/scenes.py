@@ -7,19 +7,24 @@ from dataclasses import replace
 
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.read.account import Reading, finish
+from texvent_scenes.read.camera import apply_to_camera, is_ego, is_shot, look_out, sit_in
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.parsing.clauses import Clause, read_clauses
 from texvent_scenes.read.parsing.groups import Phrase, heads_of
 from texvent_scenes.read.parsing.lexicon import lexicon_of, word_set
 from texvent_scenes.read.parsing.senses import choose_senses
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token, split_prompt
+from texvent_scenes.read.participants import (
+    add_doer,
+    do_verb,
+    find_object,
+    find_subjects,
+    turn_passive,
+)
 from texvent_scenes.read.parts import are_own_parts, say_parts
 from texvent_scenes.read.phrases import apply_phrase, say_after
-from texvent_scenes.read.predicates import add_doer, do_verb, turn_passive
 from texvent_scenes.read.prepositions import lose_drift, lose_ways
-from texvent_scenes.read.references import find_object, find_subjects
 from texvent_scenes.read.relations import relate_one
-from texvent_scenes.read.shots import apply_to_camera, is_ego, is_shot, look_out, sit_in
 from texvent_scenes.read.things import name_group
 
 
@@ -71,8 +76,8 @@ def _is_built_in(draft: SceneDraft, head: Token, clause: Clause) -> bool:
     before = draft.tokens[: clause.negation[-1].at] if clause.negation else ()
     words = [one for one in before if one.text != "with"][-1:]
     inner = word_set("things", "built_in")
-    return any(one.has("noun") and not one.has("place") for one in words) and any(
-        one.value.noun in inner for one in head.all("noun")
+    return any(one.has("noun") and not one.has("place") for one in words) and bool(
+        head.nouns & inner
     )
 
 

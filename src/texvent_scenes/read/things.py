@@ -8,7 +8,6 @@ from dataclasses import replace
 from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.tables import nouns_with, read_table, trait_value
-from texvent_scenes.read.again import find_whole_of, is_again, list_kinds
 from texvent_scenes.read.draft.copies import (
     PLURAL_COUNT,
     add_like,
@@ -18,8 +17,8 @@ from texvent_scenes.read.draft.copies import (
     stack,
 )
 from texvent_scenes.read.draft.motions import add_motion
-from texvent_scenes.read.draft.places import names_place, set_place
 from texvent_scenes.read.draft.scene_draft import SceneDraft
+from texvent_scenes.read.draft.setting import names_place, set_place, set_scene
 from texvent_scenes.read.modifiers import say_modifiers, say_word
 from texvent_scenes.read.parsing.groups import Group, Phrase, is_trajectory, ordinals
 from texvent_scenes.read.parsing.lexicon import (
@@ -27,6 +26,7 @@ from texvent_scenes.read.parsing.lexicon import (
     Sense,
     VerbSense,
     deeds,
+    general_names,
     owned_parts,
     word_set,
 )
@@ -68,12 +68,10 @@ def name_group(
         head = _see_as_thing(head)
         group = replace(group, head=head)
     if head is not None and (formed := _list_formed(group, head)):
-        draft.mark(head, "lost")
         return [index for one in formed for index in name_group(draft, one, relation, owners)]
     if head is not None and names_place(head, relation) and not is_trajectory(group):
         set_place(draft, group, head, relation)
     elif head is not None and (whole := _find_whole(draft, group)):
-        draft.mark(head, "lost")
         found = name_group(draft, whole, relation, owners)
         return found if relation else []  # what a part does, the whole does not
     elif head is not None and head.has("noun", "pose"):
@@ -99,7 +97,7 @@ def _name_others(draft: SceneDraft, group: Group, relation: str, owners: Sequenc
         effect = token.first("effect")
         is_mark = relation == "with" and any(map(draft.walks, owners))
         marks = word_set("things", "marks") if is_mark else ()
-        if not draft.set_scene(token) and effect and effect.value not in marks:
+        if not set_scene(draft, token) and effect and effect.value not in marks:
             draft.add_effect(token, effect.value, owners)
 
 
@@ -126,7 +124,7 @@ def _light_own(draft: SceneDraft, group: Group) -> None:
     lamps = draft.find(LAMPS)[-1:]
     is_owned = lamps and group.article in word_set("things", "owners")
     for token in group.unknown if is_owned else ():
-        if ("is_lit",) in [one.value[:1] for one in token.all("field")]:
+        if token.says("field", "is_lit"):
             say_word(draft, token, lamps)
 
 
@@ -233,7 +231,7 @@ def _name_members(
 def _list_formed(group: Group, head: Token) -> Sequence[Group]:
     """Groups of what has the shape that a head names, which is no thing: "a pyramid of cans"."""
     parts = group.of.groups if group.of is not None else ()
-    is_shape = any(one.value.noun in nouns_with("formed of others") for one in head.all("noun"))
+    is_shape = bool(head.nouns & nouns_with("formed of others"))
     said = [one.head for one in parts if one.head and not (one.article or one.head.has("field"))]
     is_shape &= len(said) == len(parts) and all(one.has("noun", "effect") for one in said)
     return parts if is_shape else ()
@@ -245,3 +243,31 @@ def _see_as_thing(head: Token) -> Token:
     table = read_table("words", "read")["seen_as"]
     senses = [Sense("noun", NounSense(table[one])) for one in effects if one in table]
     return replace(head, senses=tuple(senses)) if senses else head
+
+
+def find_whole_of(draft: SceneDraft, group: Group, known: int) -> list[int]:
+    """Several of whom a group names one, among the first things: the same noun, or persons."""
+    if group.noun is None or "one" not in [one.text for one in group.modifiers]:
+        return []
+    own, sexed = group.noun.noun, word_set("things", "sexed")
+    like = PERSON_NOUNS - sexed if own in PERSON_NOUNS else set()
+    return [n for n, one in enumerate(draft.things[:known])
+            if one["count"] > 1 and one["noun"] in {own, *like}][-1:]  # fmt: skip
+
+
+def list_kinds(draft: SceneDraft, head: Token) -> list[int]:
+    """Things of a kind: "the bird" means the pigeon, "the robot" a delivery robot."""
+    kinds = general_names().get(head.text, ())
+    return [n for n, one in enumerate(draft.things)
+            if one["noun"] in kinds or one.get("word", "").endswith(f" {head.text}")]  # fmt: skip
+
+
+def is_again(draft: SceneDraft, group: Group, head: Token, known: int) -> bool:
+    """Whether a group names a thing again; not "her coach", or "the car behind"."""
+    thing, after = draft.things[known], draft.tokens[head.at + 1 :][:2]
+    is_owned = group.article in ("its", "his", "her", "their")
+    is_role = thing["noun"] == "person" and head.text != "person"
+    is_role &= head.text != thing.get("word", head.text) and thing.get("word") != "person"
+    is_other = bool(after) and after[0].text in word_set("things", "elsewhere")
+    is_other &= not (after[1:] and after[1].has("articles", "pronouns", "noun", "field"))
+    return (is_owned or group.article == "the") and not (is_role or is_other)

@@ -66,18 +66,18 @@ def add_motion(thing: dict[str, Any], act: VerbSense, *, goes_on: bool = False) 
     What goes on moves as before: "a truck driving at 20 m/s passes".
     """
     motions, pace = thing["motions"], act.pace
+    last = motions[-1] if motions else {"kind": ""}
     if not act.kind:
         return
-    is_way = bool(motions) and (motions[-1]["kind"] in MEANS or "speed_m_s" in motions[-1])
-    if goes_on and act.kind == "move" and is_way:
-        motions[-1].update({"direction": act.direction} if act.direction else {})
+    if goes_on and act.kind == "move" and (last["kind"] in MEANS or "speed_m_s" in last):
+        last |= {"direction": act.direction} if act.direction else {}
         return
-    if motions and act.kind == "move" and act.end_pace == 0.0 and motions[-1]["kind"] in _TURNING:
-        motions[-1]["end_pace"] = 0.0  # "a spinning coin comes to rest"
+    if act.kind == "move" and act.end_pace == 0.0 and last["kind"] in _TURNING:
+        last["end_pace"] = 0.0  # "a spinning coin comes to rest"
         return
     is_posture = act.kind not in (*MEANS, "move")
-    if goes_on and is_posture and motions and motions[-1]["kind"] == "stand":
-        motions.pop()  # "stands reading"
+    if goes_on and is_posture and (last["kind"] == "stand" or last == {"kind": act.kind}):
+        motions.pop()  # "stands reading"; "a roundabout with cars circling" on it
     end_pace = None if act.kind == "stand" else act.end_pace
     said = {"kind": act.kind, "direction": act.direction, "end_pace": end_pace}
     motion = {name: value for name, value in said.items() if value is not None}

@@ -7,12 +7,11 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from texvent_scenes.description import Claim
-from texvent_scenes.models.places import is_room
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, read_table
 from texvent_scenes.read.draft.abilities import Abilities
-from texvent_scenes.read.draft.motions import split_move, turn_by
-from texvent_scenes.read.parsing.lexicon import Sense, word_set
+from texvent_scenes.read.draft.motions import turn_by
+from texvent_scenes.read.parsing.lexicon import word_set
 from texvent_scenes.read.parsing.tokens import Token, token_at
 from texvent_scenes.spec.data import PLACING
 
@@ -140,46 +139,6 @@ class SceneDraft(Abilities):
         return subject == other or any(
             self._stands_by(target, other) for one in relations for target in one["to"]
         )
-
-    def set_scene(self, token: Token, things: Sequence[Any] = ()) -> bool:
-        """Apply a word of light, weather, place or camera; of things, "wet" is theirs alone."""
-        if things and token.text in word_set("things", "own"):
-            return False
-        for sense in token.all("shot"):
-            self.add_move({**split_move(sense.value), **self._pace_before(token)})
-        said = [sense.value for sense in token.all("scene")]
-        if self.phases and any(part in ("light", "place") for part, _, _ in said):
-            return False  # "then it rains"
-        if self._leaves_place(token):
-            self.mark(token, "lost")
-            return True
-        for part, name, value in said:
-            if name == "name" and value in ("sky", "indoor") and self.parts[part].get(name):
-                continue  # "in a kitchen, indoors"
-            if value != "day" or name not in self.parts[part]:  # "overcast daylight"
-                self.parts[part][name] = value
-        is_near = token.text.split()[0] in word_set("things", "nearest")
-        self.claim(token, "macro", "", [None] if is_near else [])
-        is_said = token.has("shot", "scene")
-        self.show(*([token] if is_said else []))
-        return is_said
-
-    def _leaves_place(self, token: Token) -> bool:
-        """Whether a phrase names another place than the one that is said: "dives under water"."""
-        said = [sense.value[2] for sense in token.all("scene") if sense.value[1] == "name"]
-        name = self.parts["place"].get("name", "")
-        if not (said and name) or name in said or token.text == "underwater":
-            return False
-        return said != ["sky"] and not (is_room(said[0]) and is_room(name))
-
-    def _pace_before(self, token: Token) -> dict[str, Any]:
-        """The pace that the word before says, if of nothing else: "fast yaw rotation"."""
-        before = self.beside(token, -1)
-        name, value = (before.first("adverb") or Sense("", ("", ""))).value
-        if name != "pace" or self.shows(before):
-            return {}
-        self.show(before)
-        return {"pace": value}
 
     def add_move(self, move: dict[str, Any]) -> None:
         """Add a move of the camera; what flies is seen from the air."""

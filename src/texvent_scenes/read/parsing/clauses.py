@@ -112,7 +112,11 @@ class _Parser(GroupReader):
         if clause.verb is not None and self._token().is_unknown and self._has_object():
             return Clause(about="same", verb=self._take())  # "and wugs it"
         ahead = 1 if self._token().has("articles") else 0
-        starts = self._starts_group() or self._token(ahead).has("camera") or self._token().is_time
+        starts = (
+            self._starts_group()
+            or self._token(ahead).has("camera")
+            or self._token().says("adverb", "start_s")
+        )
         return Clause() if starts and (clause.verb or clause.after) else None
 
     def _go_on(self, clause: Clause) -> Clause | None:
@@ -158,8 +162,6 @@ class _Parser(GroupReader):
         if verb is None or (verb.is_unknown and verb is self._token(-1)):
             return None
         is_open = bool(verb.verbs("ing")) or clause.about == "nearest"
-        if is_open and token.is_unknown and token.text.endswith("s"):  # "a cat sleeping wugs"
-            return Clause(about="meanwhile", verb=self._take())
         is_state = bool(verb.verbs("ed")) and not verb.verbs("s")  # "a bird perched here flies"
         forms = ("ing", "s", "base") if is_open else ("ing", "s") if is_state else ("ing",)
         is_next = token.verbs(*forms) and self._is_verb(replace(clause, verb=None))
@@ -274,7 +276,7 @@ class _Parser(GroupReader):
             return replace(clause, about="same" if is_subject else clause.about, is_back=is_back)
         if not token.has("adverb"):
             return None
-        if token.is_time and clause == Clause():
+        if token.says("adverb", "start_s") and clause == Clause():
             return Clause(about="same", after=(self._take(),))
         return replace(clause, after=(*clause.after, self._take()))
 
@@ -335,7 +337,7 @@ class _Parser(GroupReader):
     def _is_like(self, preposition: Token) -> bool:
         """Whether a preposition is here like the one before, or one with a pronoun."""
         token, positions = self._token(), word_set("things", "positions") - {"between"}
-        kinds = {one.value for each in (preposition, token) for one in each.all("relation")}
+        kinds = preposition.relations | token.relations
         is_back = preposition.text != "with" and self._token(1).has("pronouns")
         is_both = token.has("relation") and preposition.has("relation")
         return is_both and (token.text == preposition.text or is_back or kinds <= positions)

@@ -65,7 +65,7 @@ def _see_as_move(token: Token, tokens: Sequence[Token]) -> Token:
 def _see_as_young(token: Token, tokens: Sequence[Token]) -> Token:
     """The token as a size, where a young animal is meant: "a baby elephant"."""
     after = token_at(tokens, token.at + 1)
-    animals = {one.value.noun for one in after.all("noun")} - PERSON_NOUNS
+    animals = after.nouns - PERSON_NOUNS
     is_animal = any(NOUNS[one].acts or NOUNS[one].speed_m_s > 0.0 for one in animals & _LIVING)
     is_young = token.text in word_set("things", "young") and is_animal
     return replace(token, senses=(Sense("field", ("size", 0.5)),)) if is_young else token
@@ -75,7 +75,7 @@ def _is_state(token: Token, tokens: Sequence[Token]) -> bool:
     """Whether a participle says how the noun after it is anyway: "fallen leaves"."""
     after = token_at(tokens, token.at + 1)
     true_of = read_table("words", "read")["inherent"].get(token.text, ())
-    return token.has("verb") and any(one.value.noun in true_of for one in after.all("noun"))
+    return token.has("verb") and bool(after.nouns & {*true_of})
 
 
 def _is_of_light(token: Token, tokens: Sequence[Token]) -> bool:
@@ -88,7 +88,7 @@ def _is_of_light(token: Token, tokens: Sequence[Token]) -> bool:
     if any(one.has("camera", "shot") or one.text in word_set("things", "viewed") for one in said):
         return False
     lit = word_set("things", "rays") | word_set("things", "lit")
-    nouns = {each.value.noun for one in said for each in one.all("noun")}
+    nouns = {noun for one in said for noun in one.nouns}
     lamps = {one for one in nouns & LAMPS.keys() if one in NOUNS and not NOUNS[one].speed_m_s}
     return bool(lamps) or any(one.text in lit for one in said)
 
@@ -98,9 +98,9 @@ def _see_as_verb(token: Token, tokens: Sequence[Token]) -> Token:
     before, after, then = (token_at(tokens, token.at + step) for step in (-1, 1, 2))
     forms = {one.value.is_plural for one in token.all("noun")}
     is_begun = before.text in word_set("things", "begun") or before.has("relatives")
-    is_begun |= before.is_pace and token_at(tokens, token.at - 2).has("relatives")
+    is_begun |= before.says("adverb", "pace") and token_at(tokens, token.at - 2).has("relatives")
     is_verb = True in forms and is_begun and not (after.has("verb") or after.text == "and")
-    is_verb &= token.has("verb") or not before.is_pace  # "then cars drive by"
+    is_verb &= token.has("verb") or not before.says("adverb", "pace")  # "then cars drive by"
     is_led = after.text in word_set("things", "particles") and (then.is_sign or then.text == "and")
     is_verb |= True in forms and is_led and not before.has("articles", "field", "relation")
     is_agreed = before.is_unknown and is_plural_form(before.text) and not after.has("noun")
@@ -114,7 +114,7 @@ def _see_as_mass(token: Token, tokens: Sequence[Token]) -> Token:
     As in "behind dusty glass", "a remote controlled car", "with a leaf pattern".
     """
     after, then = (token_at(tokens, token.at + step) for step in (1, 2))
-    nouns = {one.value.noun for one in token.all("noun")}
+    nouns = token.nouns
     ends = {one.text.rpartition(" ")[2] for one in tokens[token.at + 2 : token.at + 4]}
     if nouns and after.text == "of" and ends & word_set("things", "rays"):
         return replace(token, senses=())  # "a narrow cone of warm light"
@@ -146,7 +146,7 @@ def _see_beside(token: Token, tokens: Sequence[Token]) -> Token:
     senses, table = [one.value for one in token.all("noun")], read_table("words", "read")["beside"]
     singular = token.text if senses and not senses[0].is_plural else ""
     rows = table.get(singular) or table.get(senses[0].noun if senses else token.text, ())
-    others = {one.value.noun for each in tokens for one in each.all("noun")}
+    others = {noun for one in tokens for noun in one.nouns}
     others |= {re.sub(r"['’]s$", "", one.text) for one in tokens}
     others |= {one.value[1] for each in tokens for one in each.all("pose")}
     others |= {one.value.kind for each in tokens for one in each.all("verb")}
@@ -176,7 +176,7 @@ def _choose(token: Token, tokens: Sequence[Token], nouns: Mapping[str, Noun]) ->
     kinds |= {"move"} if is_led else set()
     places = {one.value for each in tokens for one in each.all("place")}
     places |= {one.value[-1] for each in tokens for one in each.all("scene")}  # "in space"
-    others = {one.value.noun for each in tokens for one in each.all("noun")}
+    others = {noun for one in tokens for noun in one.nouns}
     scores = Counter({name: _score(nouns[name], kinds, places, others, nouns) for name in found})
     (best, score), (_, second) = [*scores.most_common(2), ("", 0), ("", 0)][:2]
     if score <= second:

@@ -7,6 +7,7 @@ import unicodedata
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
+from typing import Any
 
 from texvent_scenes.models.activities import ACTIVITIES, TIMED
 from texvent_scenes.models.effects import LAMPS
@@ -68,21 +69,6 @@ class Token:
         return not self.is_sign and (not self.senses or self.has("other"))
 
     @property
-    def is_time(self) -> bool:
-        """Whether it is a start: "after 2 seconds"."""
-        return ("start_s",) in [one.value[:1] for one in self.all("adverb")]
-
-    @property
-    def is_view(self) -> bool:
-        """Whether it says how something is seen: "medium shot", "from above"."""
-        return any(one.value[0] == "camera" for one in self.all("scene"))
-
-    @property
-    def is_pace(self) -> bool:
-        """Whether it is how fast something is done: "slowly"."""
-        return any(one.value[0] == "pace" for one in self.all("adverb"))
-
-    @property
     def is_liquid(self) -> bool:
         """Whether it is seen in nothing but its vessel, or as a place: "a bottle of water"."""
         return self.text in word_set("things", "liquids")
@@ -100,6 +86,29 @@ class Token:
     def first(self, *kinds: str) -> Sense | None:
         """The first sense of one of the kinds."""
         return next((one for one in self.senses if one.kind in kinds), None)
+
+    def says(self, kind: str, name: str) -> bool:
+        """Whether it may say a field, an adverb or a part of the scene: "slowly" a pace."""
+        return any(one.value[0] == name for one in self.all(kind))
+
+    def value(self, kind: str) -> tuple[str, Any]:
+        """Name and value of the first field, adverb or part of the scene that it says."""
+        return next((one.value for one in self.all(kind)), ("", ""))
+
+    @property
+    def nouns(self) -> set[str]:
+        """Nouns that it may be."""
+        return {one.value.noun for one in self.all("noun")}
+
+    @property
+    def relations(self) -> set[str]:
+        """Relations that it may mean."""
+        return {one.value for one in self.all("relation")}
+
+    @property
+    def relation(self) -> str:
+        """The first relation that it may mean, or ""."""
+        return next((one.value for one in self.all("relation")), "")
 
     def has(self, *kinds: str) -> bool:
         """Whether it may be of one of the kinds."""
@@ -259,10 +268,7 @@ def _read_phrase(
             found = _without_chance(found, words, end, before)
             found = () if _is_shade(words, end, lexicon) else found
             is_thing = len(phrase) < end + 1 - at  # "approaching the camera", no moving camera
-            dropped = {"noun"} if is_thing else set()
-            if is_thing and words[end] == "camera" and words[at].endswith("ing"):
-                dropped.add("shot")
-            found = tuple(one for one in found if one.kind not in dropped)
+            found = tuple(one for one in found if not (is_thing and one.kind == "noun"))
         if found:
             length, senses = end + 1 - at, found
     is_number = length == 1 and words[at].lstrip("-−.")[:1].isdecimal()

@@ -1,13 +1,17 @@
-"""Places of a scene: which words name them, and what is said of them."""
+"""Setting of a scene: its place, light and weather, and which words name them."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
 
 from texvent_scenes.description import SEEN
 from texvent_scenes.models.places import is_room
 from texvent_scenes.models.tables import read_table
+from texvent_scenes.read.draft.motions import split_move
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.parsing.groups import Group
-from texvent_scenes.read.parsing.lexicon import Sense, word_set
+from texvent_scenes.read.parsing.lexicon import word_set
 from texvent_scenes.read.parsing.tokens import Token
 
 
@@ -21,20 +25,63 @@ def names_place(head: Token, relation: str) -> bool:
     return bool(relation) or not is_thing
 
 
+def set_scene(draft: SceneDraft, token: Token, things: Sequence[Any] = ()) -> bool:
+    """Apply a word of light, weather, place or camera; of things, "wet" is theirs alone."""
+    if things and token.text in word_set("things", "own"):
+        return False
+    for sense in token.all("shot"):
+        draft.add_move({**split_move(sense.value), **_pace_before(draft, token)})
+    said = [sense.value for sense in token.all("scene")]
+    if draft.phases and any(part in ("light", "place") for part, _, _ in said):
+        return False  # "then it rains"
+    if _leaves_place(draft, token):
+        draft.mark(token, "lost")
+        return True
+    for part, name, value in said:
+        if name == "name" and value in ("sky", "indoor") and draft.parts[part].get(name):
+            continue  # "in a kitchen, indoors"
+        if value != "day" or name not in draft.parts[part]:  # "overcast daylight"
+            draft.parts[part][name] = value
+    is_near = token.text.split()[0] in word_set("things", "nearest")
+    draft.claim(token, "macro", "", [None] if is_near else [])
+    is_said = token.has("shot", "scene")
+    draft.show(*([token] if is_said else []))
+    return is_said
+
+
+def _leaves_place(draft: SceneDraft, token: Token) -> bool:
+    """Whether a phrase names another place than the one that is said: "dives under water"."""
+    said = [sense.value[2] for sense in token.all("scene") if sense.value[1] == "name"]
+    name = draft.parts["place"].get("name", "")
+    if not (said and name) or name in said or token.text == "underwater":
+        return False
+    return said != ["sky"] and not (is_room(said[0]) and is_room(name))
+
+
+def _pace_before(draft: SceneDraft, token: Token) -> dict[str, Any]:
+    """The pace that the word before says, if of nothing else: "fast yaw rotation"."""
+    before = draft.beside(token, -1)
+    name, value = before.value("adverb")
+    if name != "pace" or draft.shows(before):
+        return {}
+    draft.show(before)
+    return {"pace": value}
+
+
 def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> None:
     """As "on a snowy road", "a red sky", "a mountain road"; a second place is far off."""
     place = draft.parts["place"]
     name = head.all("place")[0].value
     is_it = name in ("sky", place.get("name", name))
     for token in group.modifiers:
-        field, value = (token.first("field") or Sense("", ("", ""))).value
+        field, value = token.value("field")
         if token.text == "dark":
             draft.parts["light"].setdefault("kind", "night")
             if name == "plain":
                 place |= {"colour": "black", "sky": "black"}
         elif field == "colour" and is_it and not is_room(name):
             place["sky" if name == "sky" else "colour"] = value
-        elif not (token.has("partitive") or draft.set_scene(token)):
+        elif not (token.has("partitive") or set_scene(draft, token)):
             continue
         draft.show(token)
     if name == "plain":  # "a plain black background": alone, the word has several senses
@@ -43,7 +90,7 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
     draft.show_inherent(group.unknown, name)
     for token in group.unknown:
         _fill_place(draft, token, name)
-    draft.set_scene(head)
+    set_scene(draft, head)
     is_said = bool(group.modifiers) and relation not in ("in", "on", "through")
     if not is_it and name in word_set("things", "backdrops") and not is_room(place["name"]):
         place["backdrops"] = list(dict.fromkeys([*place.get("backdrops", ()), name]))
