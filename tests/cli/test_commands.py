@@ -15,7 +15,6 @@ import pytest
 from tests.cli.running import refused, run
 
 import texvent
-from texvent import _registry
 from texvent.errors import InputError
 
 CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
@@ -92,28 +91,15 @@ def test_an_unknown_command_is_named(capsys):
     assert "allowed: generate, batch, dataset, " in refused(capsys, "frobnicate")
 
 
-def test_packages_add_commands_but_replace_none_and_break_only_their_own(
-    tmp_path, monkeypatch, capsys
-):
-    def add(package, name, target):
-        info = tmp_path / f"{package}-1.0.dist-info"
-        info.mkdir()
-        (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {package}\nVersion: 1.0\n")
-        (info / "entry_points.txt").write_text(f"[texvent.commands]\n{name} = {target}\n")
-        _registry._plugged_in.cache_clear()
-
-    monkeypatch.syspath_prepend(tmp_path)
+def test_packages_add_commands_but_replace_none_and_break_only_their_own(install, capsys):
     added = "COMMANDS = {'scenes': ('extra:none', ''), 'extra': ('extra', '')}\n"
-    (tmp_path / "extra.py").write_text(f"{added}def run(words): return 7\n")
-    try:
-        add("extra", "mine", "extra:COMMANDS")
-        assert (run("extra"), run("scenes", "mug")) == (7, 0)
-        add("broken", "broken", "broken_module:COMMANDS")
-        assert run("scenes", "mug") == 0
-        said = refused(capsys, "extra", codes=(1,))
-        assert "command 'broken' of another package cannot be loaded from broken_module" in said
-    finally:
-        _registry._plugged_in.cache_clear()
+    points = "[texvent.commands]\nmine = extra:COMMANDS\n"
+    install("extra", points, extra=f"{added}def run(words): return 7\n")
+    assert (run("extra"), run("scenes", "mug")) == (7, 0)
+    install("broken", "[texvent.commands]\nbroken = broken_module:COMMANDS\n")
+    assert run("scenes", "mug") == 0
+    said = refused(capsys, "extra", codes=(1,))
+    assert "command 'broken' of another package cannot be loaded from broken_module" in said
 
 
 def test_an_empty_path_is_refused():
