@@ -256,6 +256,25 @@ def moving_texture() -> Callable[..., np.ndarray]:
 
 
 @pytest.fixture
+def install(tmp_path, monkeypatch) -> Iterator[Callable[..., None]]:
+    """`install(package, entry_points, MODULE=source)`: another package, installed."""
+    from texvent import _registry
+
+    def add(package: str, entry_points: str, **modules: str) -> None:
+        info = tmp_path / f"{package}-1.0.dist-info"
+        info.mkdir()
+        (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {package}\nVersion: 1.0\n")
+        (info / "entry_points.txt").write_text(entry_points)
+        for name, source in modules.items():
+            (tmp_path / f"{name}.py").write_text(source)
+        _registry._plugged_in.cache_clear()
+
+    monkeypatch.syspath_prepend(tmp_path)
+    yield add
+    _registry._plugged_in.cache_clear()
+
+
+@pytest.fixture
 def held_back(monkeypatch) -> str:
     """Name of a simulator whose events all come at the end; see held_back.py."""
     from texvent import _registry

@@ -11,6 +11,7 @@ import cv2
 import numpy as np
 import pytest
 from PIL import Image
+from tests.capture.conftest import ClipWriter
 
 import texvent
 from texvent.capture import decoding, video_file
@@ -270,15 +271,9 @@ def test_a_file_that_is_no_video_is_refused(tmp_path, name):
 @pytest.fixture(scope="module")
 def long_film(tmp_path_factory):
     """5,000 tiny frames."""
-    path = tmp_path_factory.mktemp("long") / "long.mkv"
-    with av.open(str(path), "w") as clip:
-        stream = clip.add_stream("mpeg4", rate=50)
-        stream.width, stream.height, stream.pix_fmt = 32, 16, "yuv420p"
-        for index in range(5000):
-            pixels = np.full((16, 32, 3), index % 200, np.uint8)
-            clip.mux(stream.encode(av.VideoFrame.from_ndarray(pixels)))
-        clip.mux(stream.encode(None))
-    return path
+    frames = [np.full((16, 32, 3), index % 200, np.uint8) for index in range(5000)]
+    writer = ClipWriter(tmp_path_factory.mktemp("long"))
+    return writer.write("long.mkv", frames, codec="mpeg4", rate=50, ticks=50)
 
 
 @pytest.mark.long

@@ -15,11 +15,7 @@ import pytest
 from tests.cli.running import refused, run
 
 import texvent
-from texvent import _registry
 from texvent.errors import InputError
-from texvent.events import EventStream
-from texvent.io.files import save
-from texvent.sensor import SensorSize
 
 CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
 QUICK = ["--interpolate", "none", "--stop", "0.2"]
@@ -95,62 +91,15 @@ def test_an_unknown_command_is_named(capsys):
     assert "allowed: generate, batch, dataset, " in refused(capsys, "frobnicate")
 
 
-def test_packages_add_commands_but_replace_none_and_break_only_their_own(
-    tmp_path, monkeypatch, capsys
-):
-    def add(package, name, target):
-        info = tmp_path / f"{package}-1.0.dist-info"
-        info.mkdir()
-        (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {package}\nVersion: 1.0\n")
-        (info / "entry_points.txt").write_text(f"[texvent.commands]\n{name} = {target}\n")
-        _registry._plugged_in.cache_clear()
-
-    monkeypatch.syspath_prepend(tmp_path)
+def test_packages_add_commands_but_replace_none_and_break_only_their_own(install, capsys):
     added = "COMMANDS = {'scenes': ('extra:none', ''), 'extra': ('extra', '')}\n"
-    (tmp_path / "extra.py").write_text(f"{added}def run(words): return 7\n")
-    try:
-        add("extra", "mine", "extra:COMMANDS")
-        assert (run("extra"), run("scenes", "mug")) == (7, 0)
-        add("broken", "broken", "broken_module:COMMANDS")
-        assert run("scenes", "mug") == 0
-        said = refused(capsys, "extra", codes=(1,))
-        assert "command 'broken' of another package cannot be loaded from broken_module" in said
-    finally:
-        _registry._plugged_in.cache_clear()
-
-
-REFUSED = {
-    "simulate c.npy --fps 9 -o o.h5 --previews png,none": "previews is 'png,none'; give none al",
-    "simulate --help=nosuch": "help has no section 'nosuch'; allowed: all, ",
-    "convert e.h5 o.npz --video c.npy": "video is for --format event-utils; leave it out",
-    "convert e.h5 o.npz --triggers o.csv": "e.h5 holds no triggers; leave out --triggers",
-    "convert e o.h5 --from-format csv": "e is a folder; give the name of an event file",
-    "info e --format esim": "e holds no files 0000000000.npz",
-    "info e.h5 --format esim": "e.h5 is a file; this format is a folder of files",
-    "compare e.h5 e.h5 r.h5": "e.h5 is given twice; give each file to judge once",
-    "calibrate --frames c.npy --fps 9 --events e.h5 -o o.toml --start-preset v2e.toml": (
-        "v2e.toml is not for the physical model"
-    ),
-    "generate s.toml --llm-url http://127.0.0.1:9 -o o.h5": "--llm-url reads a sentence, and s.to",
-    "generate ball --video-only --format npz": "writes a video; leave out --format and --truth",
-    "data frobnicate": "unknown action 'data frobnicate'; ",
-    "dataset make e -o o": "-o goes with a specification; a data set goes on in its own folder",
-    "dataset export e": "export needs the folder to write; name it with -o",
-}
-"""Words of a command line → words of its one line."""
-
-
-@pytest.mark.parametrize("words", REFUSED)
-def test_mistakes_are_one_line_and_leave_no_file(folder, capsys, words):
-    save("e.h5", EventStream.empty(SensorSize(8, 6)))
-    save("r.h5", EventStream.empty(SensorSize(8, 6)))
-    np.save("c.npy", np.zeros((2, 6, 8), np.uint8))
-    Path("e").mkdir()
-    Path("v2e.toml").write_text('simulator = "v2e"\n', encoding="utf-8")
-    assert run("generate", "a red ball", "--write-scene", "s.toml", "-q") == 0
-    before = sorted(folder.iterdir())
-    assert REFUSED[words] in refused(capsys, *words.split())
-    assert sorted(folder.iterdir()) == before
+    points = "[texvent.commands]\nmine = extra:COMMANDS\n"
+    install("extra", points, extra=f"{added}def run(words): return 7\n")
+    assert (run("extra"), run("scenes", "mug")) == (7, 0)
+    install("broken", "[texvent.commands]\nbroken = broken_module:COMMANDS\n")
+    assert run("scenes", "mug") == 0
+    said = refused(capsys, "extra", codes=(1,))
+    assert "command 'broken' of another package cannot be loaded from broken_module" in said
 
 
 def test_an_empty_path_is_refused():

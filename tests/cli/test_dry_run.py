@@ -1,14 +1,13 @@
 """`--dry-run`: parts of a clip say what the whole run would take."""
 
 import itertools
-from fractions import Fraction
 from pathlib import Path
 from unittest import mock
 
-import av
 import cv2
 import numpy as np
 import pytest
+from tests.capture.conftest import ClipWriter
 
 import texvent
 from texvent.cli.app import main
@@ -72,16 +71,10 @@ def write_images(times_us):
 
 
 def write_film(times_us):
-    with av.open("film.mkv", "w") as clip:
-        stream = clip.add_stream("ffv1", rate=25)
-        stream.width, stream.height, stream.pix_fmt = 16, 12, "gray"
-        stream.codec_context.time_base = Fraction(1, 1000)
-        for index, t_us in enumerate(times_us):
-            frame = av.VideoFrame.from_ndarray(FRAMES[index % len(FRAMES)], format="gray")
-            frame.pts, frame.time_base = t_us // 1000, Fraction(1, 1000)
-            clip.mux(stream.encode(frame))
-        clip.mux(stream.encode(None))
-    return "film.mkv"
+    frames = np.resize(FRAMES, (len(times_us), 12, 16))
+    kinds = {"codec": "ffv1", "stored": "gray", "given": "gray"}
+    times_ms = [t_us // 1000 for t_us in times_us]
+    return str(ClipWriter(Path()).write("film.mkv", frames, times_ms=times_ms, **kinds))
 
 
 @pytest.mark.parametrize("write", [write_images, write_film])
@@ -97,15 +90,10 @@ def test_a_dry_run_finds_the_jumps_that_the_run_finds(write, capsys):
 
 def write_joined(times_us):
     """A stream that begins again in its middle."""
-    with av.open("joined.mpg", "w") as clip:
-        stream = clip.add_stream("mpeg2video", rate=25)
-        stream.width, stream.height, stream.pix_fmt = 64, 48, "yuv420p"
-        for level in range(len(times_us)):
-            pixels = np.full((48, 64, 3), 9 * level, np.uint8)
-            clip.mux(stream.encode(av.VideoFrame.from_ndarray(pixels)))
-        clip.mux(stream.encode(None))
-    Path("joined.mpg").write_bytes(Path("joined.mpg").read_bytes() * 2)
-    return "joined.mpg"
+    frames = [np.full((48, 64, 3), 9 * level, np.uint8) for level in range(len(times_us))]
+    path = ClipWriter(Path()).write("joined.mpg", frames, codec="mpeg2video", ticks=25)
+    path.write_bytes(path.read_bytes() * 2)
+    return str(path)
 
 
 @pytest.mark.parametrize(

@@ -56,6 +56,8 @@ def make_inputs(folder: Path) -> None:
         "mask.txt": "3 3\n4 4\n5 5\n",
         "lens.txt": "14 14 8 6 -0.3 0.1 0.01 0.02 0",
         "parts.txt": "0.1\n0.3\n0.5\n",
+        "v2e.toml": 'simulator = "v2e"\n',
+        "ball.toml": '[[objects]]\nnoun = "ball"\n',
         "cars.toml": SPECIFICATION,
         "wugs.toml": SPECIFICATION.replace("a blue bus drives left", "qwerty zxcv"),
     }

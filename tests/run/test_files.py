@@ -16,6 +16,7 @@ from ..truth.hand_video import board_video
 FACTS = {"prompt": "a board moves right", "note": "given by the caller"}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("palette", sorted(PALETTES))
 def test_every_file_is_made_with_the_options_and_facts_of_the_run(tmp_path, palette):
     run = video_to_events(board_video(), resolve("simulate", {"interpolate": "exact"}))

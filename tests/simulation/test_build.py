@@ -75,18 +75,12 @@ BROKEN = [
 
 
 @pytest.fixture
-def install(tmp_path, monkeypatch):
+def mine(install, monkeypatch):
     """A function that makes attributes of a module those of an installed package."""
-    info = tmp_path / "mine-1.0.dist-info"
-    info.mkdir()
-    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: mine\nVersion: 1.0\n")
-    (info / "entry_points.txt").write_text("[texvent.simulators]\nmine = mine_module:Part\n")
-    monkeypatch.syspath_prepend(tmp_path)
-    _registry._plugged_in.cache_clear()
-    yield lambda **parts: monkeypatch.setitem(
+    install("mine", "[texvent.simulators]\nmine = mine_module:Part\n")
+    return lambda **parts: monkeypatch.setitem(
         sys.modules, "mine_module", types.SimpleNamespace(**parts)
     )
-    _registry._plugged_in.cache_clear()
 
 
 @pytest.mark.parametrize("name", SIMULATORS)
@@ -94,8 +88,8 @@ def test_our_simulators_keep_the_contract(name):
     texvent.check_simulator(name)
 
 
-def test_a_plug_in_that_is_right_is_run_and_passes(install):
-    install(Part=PlugIn)
+def test_a_plug_in_that_is_right_is_run_and_passes(mine):
+    mine(Part=PlugIn)
     frames = np.stack([frame.luma for frame in moving_texture()])
     wanted, events = (
         texvent.simulate(frames, fps=25, simulator=name, interpolate="blend")
@@ -118,8 +112,8 @@ def test_a_broken_simulator_is_named_by_the_check(change, said):
     assert str(caught.value).startswith("simulator 'Mine' ")
 
 
-def test_a_plug_in_that_cannot_be_imported_is_named(install):
-    install()
+def test_a_plug_in_that_cannot_be_imported_is_named(mine):
+    mine()
     assert "mine" in texvent.simulators()
     with pytest.raises(TexventError, match=r"simulator 'mine' of another package .*mine_module"):
         texvent.presets("mine")

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests import examples
 from tests.conftest import choose_rows
 
 
@@ -39,3 +40,10 @@ def test_of_a_long_table_every_second_row_has_its_turn(rows, kept):
 @pytest.mark.parametrize(("tables", "kept"), [([], 0), ([1], 0), ([3], 1), ([17], 2), ([4, 4], 2)])
 def test_an_eighth_of_the_rows_of_a_long_test_has_its_turn(tables, kept):
     assert len(brief_run(*tables, is_long=True)) == kept
+
+
+@pytest.mark.parametrize("rows", [0, 1, 7, 192, 193, 5000])
+def test_one_test_of_a_whole_table_tries_a_quarter_of_it_and_48_rows_at_most(monkeypatch, rows):
+    for share, most in ((1.0, rows), (12 / 50, min(-(-rows // 4), 48))):
+        monkeypatch.setattr(examples, "share", lambda share=share: share)
+        assert 0.8 * most <= len(range(rows)[:: examples.one_of(rows)]) <= most

@@ -1,6 +1,5 @@
 """`texvent dataset plan`, `make` and `stats`, as a user calls them."""
 
-import hashlib
 import os
 import subprocess
 import sys
@@ -8,6 +7,7 @@ import time
 from pathlib import Path
 
 import pytest
+from tests.dataset.generation.small_sets import digests
 
 from texvent.cli.app import main
 
@@ -54,13 +54,6 @@ def folder(tmp_path, monkeypatch):
 
 def run(*words: object) -> int:
     return main(["dataset", *map(str, words)])
-
-
-def digests(folder: Path) -> dict[str, str]:
-    return {
-        str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
-        for path in sorted(folder.rglob("*.tar"))
-    }
 
 
 def test_a_plan_says_what_there_will_be_and_leaves_nothing(folder, capsys):

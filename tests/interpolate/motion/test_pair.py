@@ -58,6 +58,7 @@ def test_a_bar_before_a_background_is_drawn_as_defined(place):
     np.testing.assert_allclose(image, expected, rtol=0, atol=0.02)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("shares", [(0.6, 0.8), (0.6, 1.4), (1.7, 0.5), (1.3, 1.6)])
 def test_random_surfaces_are_drawn_as_defined(shares):
     """The two frames bend a path to the same side or to others, one more than twice the other."""

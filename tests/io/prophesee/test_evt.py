@@ -4,15 +4,20 @@ import subprocess
 import sys
 import tracemalloc
 
+import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from tests.examples import examples
 
 from texvent.errors import FileFormatError, InputError, TexventWarning
 from texvent.io import block_writer, byte_blocks, metadata
 from texvent.io.files import codec_for, codec_that_reads, load, open_events, save
 from texvent.io.prophesee import text_header
-from texvent.io.prophesee.evt import SAMPLE
+from texvent.io.prophesee.evt import SAMPLE, Evt2Codec, Evt3Codec, Evt21Codec
 
 from .prophesee_files import EXTENSIONS, FORMATS, at_times, row_bursts, write_words
+from .slow_words import decode_evt2, decode_evt3, decode_evt21
 
 EVT = ("evt2", "evt21", "evt3")
 
@@ -38,6 +43,41 @@ def test_a_lone_wrong_high_time_is_damage_not_a_turn(tmp_path, format, bits, bet
         load(path)
     with pytest.warns(TexventWarning, match="stray times: 1"):
         assert load(path, repair=True).t.tolist() == times
+
+
+ANY = {
+    "evt2": st.integers(0, 2**32 - 1) | st.integers(8 << 28, 8 << 28 | 100)
+    | st.integers(0, 2**29 - 1),
+    "evt21": st.integers(0, 2**64 - 1) | st.integers(0, 100).map(lambda high: 8 << 60 | high << 32)
+    | st.integers(0, 2**61 - 1),
+    "evt3": st.integers(0, 0xFFFF) | st.integers(0x8000, 0x8005)
+    | st.sampled_from([0x8FFF, 0x0001, 0x6001, 0x3801, 0x4FFF, 0x50FF, 0x2801]),
+}  # fmt: skip
+"""Words of each format: any, times and events."""
+
+
+@pytest.mark.parametrize(
+    ("format", "codec", "slow", "dtype"),
+    [
+        ("evt2", Evt2Codec, decode_evt2, "<u4"),
+        ("evt21", Evt21Codec, decode_evt21, "<u8"),
+        ("evt3", Evt3Codec, decode_evt3, "<u2"),
+    ],
+)
+@examples(150)
+@given(data=st.data(), cut=st.integers(0, 80))
+def test_any_words_mean_what_the_slow_decoder_says(format, codec, slow, dtype, data, cut):
+    array = np.array(data.draw(st.lists(ANY[format], max_size=80)), dtype)
+    highs = array >> 32 if format == "evt21" else array
+    is_turned = (np.diff(highs[highs >> 28 == 8].astype(np.int64)) < -(2**27)).any()
+    if format != "evt3" and is_turned:
+        return  # the slow decoder does not know wraps
+    stored = array << 32 | array >> 32 if format == "evt21" else array
+    decoder, rows = codec().make_decoder(), []
+    for part in (stored[:cut], stored[cut:]):
+        columns = decoder.decode(part)
+        rows += zip(*(columns[name].tolist() for name in "xytp"), strict=True)
+    assert rows == slow(array.tobytes())
 
 
 TYPES = {"evt2": {0, 1, 8, 10, 14, 15}, "evt21": {0, 1, 8, 10, 14, 15}}

@@ -1,17 +1,11 @@
 from pathlib import Path
 
-import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
-from tests.examples import examples
 
 from texvent.errors import FileFormatError
 from texvent.io.files import load
-from texvent.io.prophesee.evt import Evt2Codec
 
 from .prophesee_files import SIZE, events_of, write_words
-from .slow_words import decode_evt2
 
 
 def test_words_built_by_hand_from_the_published_table(tmp_path: Path) -> None:
@@ -40,24 +34,3 @@ def test_a_small_fall_of_time_is_damage_not_a_wrap(tmp_path: Path) -> None:
     path = write_words(tmp_path, "evt2", words)
     with pytest.raises(FileFormatError, match="time decreases"):
         load(path)
-
-
-@examples(100)
-@given(
-    st.lists(
-        st.one_of(
-            st.integers(0, 2**32 - 1),
-            st.integers(0, 100).map(lambda high: 0x8000_0000 | high),
-            st.integers(0, 2**29 - 1),
-        ),
-        max_size=60,
-    )
-)
-def test_any_words_mean_what_the_slow_decoder_says(words: list[int]) -> None:
-    array = np.array(words, dtype="<u4")
-    if (np.diff(array[array >> 28 == 8].astype(np.int64)) < -(2**27)).any():
-        # The slow decoder does not know wraps.
-        return
-    columns = Evt2Codec().make_decoder().decode(array)
-    rows = zip(*(columns[name].tolist() for name in "xytp"), strict=True)
-    assert list(rows) == decode_evt2(array.tobytes())

@@ -1,14 +1,8 @@
-import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
-from tests.examples import examples
 
 from texvent.io.files import load
-from texvent.io.prophesee.evt import Evt21Codec
 
 from .prophesee_files import events_of, write_words
-from .slow_words import decode_evt21
 
 WORDS = [
     0x1 << 60 | 0b1,  # before any TIME_HIGH: no time, left out
@@ -39,25 +33,3 @@ def exchange_halves(word: int) -> int:
 def test_the_header_decides_which_half_of_a_word_comes_first(tmp_path, header, legacy):
     words = [exchange_halves(word) if legacy else word for word in WORDS]
     assert events_of(load(write_words(tmp_path, "evt21", words, header=header))) == MEANING
-
-
-@examples(100)
-@given(
-    st.lists(
-        st.one_of(
-            st.integers(0, 2**64 - 1),
-            st.integers(0, 100).map(lambda high: 0x8 << 60 | high << 32),
-            st.integers(0, 2**61 - 1),
-        ),
-        max_size=40,
-    )
-)
-def test_any_words_mean_what_the_slow_decoder_says(words):
-    array = np.array(words, dtype="<u8")
-    highs = (array[array >> 60 == 8] >> 32 & 0xFFF_FFFF).astype(np.int64)
-    if (np.diff(highs) < -(2**27)).any():
-        # The slow decoder does not know wraps.
-        return
-    columns = Evt21Codec().make_decoder().decode(array << 32 | array >> 32)
-    rows = zip(*(columns[name].tolist() for name in "xytp"), strict=True)
-    assert list(rows) == decode_evt21(array.tobytes())

@@ -1,17 +1,12 @@
 from pathlib import Path
 
 import numpy as np
-from hypothesis import given
-from hypothesis import strategies as st
-from tests.examples import examples
 
 from texvent.events import EventStream
 from texvent.io import byte_blocks
 from texvent.io.files import load, open_events, save
-from texvent.io.prophesee.evt import Evt3Codec
 
 from .prophesee_files import SIZE, at_times, events_of, row_bursts, write_words
-from .slow_words import decode_evt3
 
 BY_HAND = [
     0x2003,  # an event before any TIME_HIGH: no time, left out
@@ -86,28 +81,6 @@ def test_twelve_days_of_silence_cost_less_than_half_a_megabyte(tmp_path):
     path = save(tmp_path / "e.raw", at_times(0, 2**40))
     assert path.stat().st_size < 500_000
     assert load(path).t.tolist() == [0, 2**40]
-
-
-@examples(200)
-@given(
-    st.lists(
-        st.one_of(
-            st.integers(0, 0xFFFF),
-            st.integers(0, 5).map(lambda high: 0x8000 | high),
-            st.sampled_from([0x8FFF, 0x0001, 0x6001, 0x3801, 0x4FFF, 0x50FF, 0x2801]),
-        ),
-        max_size=80,
-    ),
-    st.integers(0, 80),
-)
-def test_any_words_mean_what_the_slow_decoder_says(words, cut):
-    array = np.array(words, dtype="<u2")
-    decoder = Evt3Codec().make_decoder()
-    rows = []
-    for part in (array[:cut], array[cut:]):
-        columns = decoder.decode(part)
-        rows += zip(*(columns[name].tolist() for name in "xytp"), strict=True)
-    assert rows == decode_evt3(array.tobytes())
 
 
 def test_the_header_says_what_openeb_asks_for(tmp_path):

@@ -1,14 +1,13 @@
 """Pictures on surfaces: files, videos by their own times, boards, text; bad ones in a line."""
 
-from fractions import Fraction
 from pathlib import Path
 
-import av
 import cv2
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.capture.conftest import ClipWriter
 from tests.examples import examples
 from tests.scenes.hand_scenes import HandScene
 
@@ -26,16 +25,9 @@ from texvent_scenes.staging.actors import PlacedModel, assemble
 
 
 def write_video(path: Path, levels: list[int], pts: list[int]) -> Path:
-    with av.open(str(path), "w") as container:
-        stream = container.add_stream("ffv1", rate=10)
-        stream.width, stream.height, stream.pix_fmt = 16, 16, "bgr0"
-        stream.codec_context.time_base = Fraction(1, 100)
-        for level, time in zip(levels, pts, strict=True):
-            frame = av.VideoFrame.from_ndarray(np.full((16, 16, 3), level, np.uint8), "rgb24")
-            frame.pts, frame.time_base = time, Fraction(1, 100)
-            container.mux(stream.encode(frame))
-        container.mux(stream.encode())
-    return path
+    frames = [np.full((16, 16, 3), level, np.uint8) for level in levels]
+    writer = ClipWriter(path.parent)
+    return writer.write(path.name, frames, codec="ffv1", stored="bgr0", times_ms=pts, ticks=100)
 
 
 def test_a_video_is_shown_by_its_own_times_and_plays_again(tmp_path):
