@@ -172,7 +172,7 @@ def test_triggers_and_imu_of_dv_processing_are_read(tmp_path):
     }
 
 
-def test_signals_and_imu_samples_of_older_files_are_read(tmp_path):
+def test_signals_and_imu_samples_of_older_files_are_read(tmp_path, capfd):
     path = tmp_path / "e.aedat"
     davis_with(path)
     side = codec_that_reads(path).side_data(path)
@@ -192,3 +192,8 @@ def test_signals_and_imu_samples_of_older_files_are_read(tmp_path):
     assert samples["acceleration_x_g"].tolist() == [0.5]
     assert samples["rotation_y_deg_s"].tolist() == [2.5]
     assert samples["temperature_c"].tolist() == [30]
+    path.write_bytes(header + 3 * (special + imu))  # packets
+    capfd.readouterr()
+    assert main(["info", str(path), "--json"]) == 0
+    facts = json.loads(capfd.readouterr().out)
+    assert (facts["triggers"], facts["imu"]) == (9, 3)

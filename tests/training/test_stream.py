@@ -6,7 +6,7 @@ import pickle
 import re
 import tempfile
 import tomllib
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -543,3 +543,20 @@ def test_the_recipe_of_the_page_runs(folder, tmp_path, monkeypatch):
     state = torch.load("checkpoint.pt")["stream"]
     EventStream(folder, **SMALL).load_state_dict(state)
     assert state["next"] == 2
+
+
+@pytest.mark.parametrize("name", sorted(set(RANGES) - {"none"}))
+def test_what_is_drawn_of_a_clip_has_a_chance_of_its_own(name):
+    """No two drawn numbers go together, but the two thresholds."""
+    ranges = RANGES[name]
+    wide = {one: (0.5, 1.5) for one in ranges.drawn if one != "refractory_us"}
+    ranges = replace(ranges, **wide, refractory_us=(0, 1000), threshold=(0.2, 0.4))
+    draws = [draw_clip(ranges, 3, number, 2) for number in range(400)]
+    drawn = np.array(
+        [[*one.numbers[2:], one.is_flipped, one.speed, *one.place, one.numbers[:2].min()]
+         for one in draws]
+    )  # fmt: skip
+    varied = drawn[:, np.ptp(drawn, axis=0) > 0.0]
+    assert varied.shape[1] >= 5 + len(ranges.drawn)
+    apart = np.corrcoef(varied.T) - np.eye(varied.shape[1])
+    assert np.abs(apart).max() < 0.25

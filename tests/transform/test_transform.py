@@ -1,9 +1,10 @@
 """Regions, times, sizes, lenses and merging: by hand on few events, and by property on many."""
 
-from collections.abc import Iterator
+from collections.abc import math
 from pathlib import Path
 
 import h5py
+import Iterator
 import numpy as np
 import pytest
 from hypothesis import given
@@ -184,6 +185,17 @@ def test_cameras_of_any_name_are_chosen(tmp_path, names):
     ):
         read_calibration(path)
     assert read_calibration(Path(f"{path}:{names[1]}")).facts["model"] == "equidistant"
+
+
+@given(x=st.floats(-1.5, 9.5), y=st.floats(-1.5, 7.5))
+def test_an_event_lands_in_the_pixel_whose_square_holds_its_place(x, y):
+    places = np.stack(np.meshgrid(np.arange(8.0), np.arange(6.0)), axis=-1)
+    places[2, 3] = (x, y)
+    found = Calibration(places).undistorted(SIZE)[2, 3].tolist()
+    column, row = math.floor(x + 0.5), math.floor(y + 0.5)
+    is_inside = 0 <= column < SIZE.width and 0 <= row < SIZE.height
+    if 0.5 not in (x % 1.0, y % 1.0):  # on a rim, either
+        assert found == ([column, row] if is_inside else [-1, -1])
 
 
 def test_a_rectify_map_says_where_each_pixel_belongs(tmp_path):

@@ -43,6 +43,16 @@ def test_files_are_scenes_with_labels_of_their_fields(folder):
     assert items_of(folder, scene=["scenes/car.toml"]).all[0].label is None
 
 
+def test_each_file_draws_its_own_order_of_values(folder):
+    sizes = {"objects[0].size": [round(1.0 + 0.5 * one, 1) for one in range(20)]}
+    orders = set()
+    for name in "abc":
+        (folder / "scenes" / f"{name}.toml").write_text('[[objects]]\nnoun = "ball"\n')
+        drawn = items_of(folder, scene=f"scenes/{name}.toml", count=9, vary=sizes).all
+        orders.add(tuple(one.subject.objects[0].size for one in drawn))
+    assert len(orders) == 3
+
+
 def test_lists_are_combined_and_ranges_are_drawn(folder):
     every = items_of(folder, scene="scenes/car.toml", vary=BOTH, label=f"{{{COLOUR}}}").all
     assert [one.label for one in every] == ["red", "blue"]

@@ -48,6 +48,16 @@ def test_rates_are_events_per_second_on_above_and_off_below():
     assert on.edges == pytest.approx([0, 1e-4, 2e-4, 3e-4, 4e-4])
 
 
+@pytest.mark.parametrize("bin_us", [1, 7, 90, 100, 150, 379, 1000])
+def test_each_bin_of_a_rate_holds_the_events_between_its_edges(bin_us):
+    on, off = (stairs.get_data() for stairs in EVENTS.plot("rate", bin_us=bin_us).patches)
+    for drawn, polarity, sign in ((on, 1, 1), (off, 0, -1)):
+        edges_us = np.rint(np.asarray(drawn.edges) * 1e6)
+        counts, _ = np.histogram(EVENTS.t[EVENTS.p == polarity], edges_us)
+        assert np.diff(edges_us).tolist() == [bin_us] * len(counts)
+        assert drawn.values == pytest.approx(sign * counts * 1e6 / bin_us)
+
+
 def test_the_default_rate_has_at_most_a_hundred_bins_with_every_event():
     on, off = (stairs.get_data() for stairs in EVENTS.plot("rate").patches)
     width_s = on.edges[1] - on.edges[0]
