@@ -549,7 +549,7 @@ def test_the_recipe_of_the_page_runs(folder, tmp_path, monkeypatch):
 def test_what_is_drawn_of_a_clip_has_a_chance_of_its_own(name):
     """No two drawn numbers go together, but the two thresholds."""
     ranges = RANGES[name]
-    wide = {one: (0.5, 1.5) for one in ranges.drawn if one != "refractory_us"}
+    wide = {one: (0.2, 0.9) for one in ranges.drawn if one != "refractory_us"}
     ranges = replace(ranges, **wide, refractory_us=(0, 1000), threshold=(0.2, 0.4))
     draws = [draw_clip(ranges, 3, number, 2) for number in range(400)]
     drawn = np.array(

@@ -1,10 +1,10 @@
 """Regions, times, sizes, lenses and merging: by hand on few events, and by property on many."""
 
-from collections.abc import math
+import math
+from collections.abc import Iterator
 from pathlib import Path
 
 import h5py
-import Iterator
 import numpy as np
 import pytest
 from hypothesis import given
