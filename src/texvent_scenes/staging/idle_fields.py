@@ -7,7 +7,7 @@ places and light have tables: `READ_BY_MOVES`, and the conditions below.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields, replace
 from functools import lru_cache
 from itertools import islice
@@ -19,6 +19,7 @@ from texvent.errors import few, shown
 from texvent_scenes.colours import rgb_of
 from texvent_scenes.defaults import decide_motions
 from texvent_scenes.description import STANDING
+from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.materials import in_material
 from texvent_scenes.models.nouns import MOTIONS
@@ -38,7 +39,7 @@ from texvent_scenes.spec.scene import (
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.tracks.choose_track import choose_track
 from texvent_scenes.staging.tracks.motion_plan import plan_motion, with_heading
-from texvent_scenes.staging.tracks.phases import PATH_KINDS
+from texvent_scenes.staging.tracks.phases import PATH_KINDS, fits_in_hand, rests_in_hand
 
 RESTS = frozenset({"stand", "stand open", "stand closed", "sit", "lie", "hang", "move"})
 """Motions that say no more than a noun does anyway."""
@@ -89,8 +90,8 @@ def _model(noun: Noun) -> Model:
 class _Body:
     """A noun's model, on which motions are tried out."""
 
-    def __init__(self, noun: Noun) -> None:
-        self.noun = noun
+    def __init__(self, noun: Noun, *, is_held: bool = False) -> None:
+        self.noun, self.is_held = noun, is_held
 
     def _put_on(self, one: SceneObject, duration_s: float) -> Actor:
         motions = decide_motions(one.motions, self.noun) or (STANDING,)
@@ -182,11 +183,15 @@ def list_idle(scene: Scene, decided: Scene, nouns: Mapping[str, Noun]) -> Iterat
         id for one, own in zip(scene.objects, ids, strict=True)
         for each in one.relations if each.kind not in PLACING for id in (own, *each.to)
     }  # fmt: skip
+    held = dict(_list_held(scene, ids))
     for number, one in enumerate(scene.objects):
-        where, body = f"objects[{number}]", _Body(nouns[one.noun])
+        holder = held.get(ids[number])
+        where, body = f"objects[{number}]", _Body(nouns[one.noun], is_held=holder is not None)
         yield from _idle_looks(where, one, body.noun)
         # What an act, a route or a companion makes of a motion is not seen on one body alone.
-        if ids[number] not in bound:
+        if holder is not None:
+            yield from _idle_in_hand(where, one, body, holder)
+        elif ids[number] not in bound:
             yield from _idle_motions(where, one, body)
     yield from _idle_moves(scene)
     yield from _idle_light(scene)
@@ -258,6 +263,36 @@ def _idle_motions(where: str, one: SceneObject, body: _Body) -> Iterator[Idle]:
             yield Idle(f"{where}.heading_deg", f"a {one.noun} shows its front to the camera then")
 
 
+def _list_held(scene: Scene, ids: Sequence[str]) -> Iterator[tuple[str, str]]:
+    """Id of each thing that is in a hand → id of whose hand it is."""
+    nouns = {id: one.noun for one, id in zip(scene.objects, ids, strict=True)}
+    for one, own in zip(scene.objects, ids, strict=True):
+        for each in one.relations:
+            if each.kind in ("hold", "wear"):
+                yield from ((to, own) for to in each.to[: None if each.kind == "wear" else 1])
+            elif each.kind == "with" and each.to and nouns.get(each.to[0]) in HAND_NOUNS:
+                yield from () if one.noun in PERSON_NOUNS | HAND_NOUNS else [(own, each.to[0])]
+
+
+def _idle_in_hand(where: str, one: SceneObject, body: _Body, holder: str) -> Iterator[Idle]:
+    """Fields of what is held that its holder decides, and of its motions in the hand."""
+    why = f"it is held: its place is that of {shown(holder)}, to which the field belongs"
+    for name in ("position_m", "height_m", "heading_deg", "placement"):
+        if getattr(one, name) is not None:
+            yield Idle(f"{where}.{name}", why)
+    unfit = [number for number, motion in enumerate(one.motions)
+             if not fits_in_hand(motion, body.noun) and not rests_in_hand(motion, body.noun)]  # fmt: skip
+    for number in unfit:
+        kind = one.motions[number].kind
+        yield Idle(
+            f"{where}.motions[{number}].kind",
+            f"a {one.noun} that is held does not {kind}; give {shown(holder)} the motion, or leave "
+            "out the relation; in a hand it can tilt, sway, rotate, spin",
+        )
+    if not unfit:
+        yield from _idle_motions(where, one, body)
+
+
 def _why_not_done(body: _Body, one: SceneObject, kind: str) -> str:
     """Why a motion of an object has no effect, and which have one."""
     if kind in RESTS:
@@ -271,7 +306,8 @@ def _why_not_done(body: _Body, one: SceneObject, kind: str) -> str:
 def _name_kinds(body: _Body, holds: Callable[[SceneObject], bool]) -> str:
     """The first kinds of motion of a noun for which something holds, its usual one before all."""
     usual = [body.noun.motion, *sorted(body.noun.acts)]
-    kinds = [kind for kind in dict.fromkeys((*usual, *sorted(MOTIONS))) if kind not in RESTS]
+    kinds = [kind for kind in dict.fromkeys((*usual, *sorted(MOTIONS))) if kind not in RESTS
+             and not (body.is_held and not fits_in_hand(Motion(kind), body.noun))]  # fmt: skip
     does = (kind for kind in kinds
             if holds(SceneObject(body.noun.name, motions=(Motion(kind),))))  # fmt: skip
     named = list(islice(does, _MOST_NAMED + 1))

@@ -33,6 +33,7 @@ from texvent_scenes.staging.tracks.phases import (
     usual_speed,
 )
 from texvent_scenes.staging.tracks.track import Term, Track, centred
+from texvent_scenes.staging.tracks.turning import CLOCKWISE, spin_sign
 
 NO_FLOOR_M = -1e4
 """Floor of a path that is not yet placed above the ground, m."""
@@ -59,7 +60,6 @@ _LIFT_SHARE, _LANDING_SHARE = 0.3, 0.65
 """Shares of a phase after which wheels leave a runway, or meet it."""
 _OF_CAMERA = ("towards", "away")
 """Directions to which something turns that say where it heads then, and not to which side."""
-_CLOCKWISE = frozenset({"clockwise", "right"})
 _REACHED = {"sit down": "sit", "stand up": "stand"}
 """Getting up and down after something else: the posture that the body goes over to."""
 
@@ -182,7 +182,7 @@ class _KeyBuilder:
             self._spin_on(phase)
         elif motion.kind == "spin":
             turn = 2.0 * math.pi * SPIN_RATE_HZ * motion.pace
-            turn = -turn if motion.direction in _CLOCKWISE else turn
+            turn *= spin_sign(motion.direction, "yaw", 0.0)
             self._start(0.0, turn)
             self._append(Key(span, 0.0, turn, ramp_s=min(0.4, 0.5 * span)))
         elif motion.kind in ("jump", "bounce"):
@@ -200,7 +200,7 @@ class _KeyBuilder:
         """Turn a wheel about its axle, or a flat shape in the picture."""
         model, begin_s, axis = self._model, phase.start_s, self._spin_axis
         rate = 2.0 * math.pi * SPIN_RATE_HZ * phase.motion.pace
-        rate = -rate if phase.motion.direction in _CLOCKWISE else rate
+        rate *= spin_sign(phase.motion.direction, axis, self._heading)
         times = {"begin_s": begin_s, "end_s": phase.end_s}
         self.terms.append(Term(axis, drift=rate, offset=-rate * begin_s, **times))
         self.pivot_m = 0.5 * model.height
@@ -301,7 +301,7 @@ class _KeyBuilder:
         """Shares of the time, and by what angle each one turns, rad."""
         direction = motion.direction or ""
         angle = math.pi if direction == "around" else QUARTER
-        angle = -angle if direction in _CLOCKWISE else angle
+        angle = -angle if direction in CLOCKWISE else angle
         if motion.kind == "turn" and direction in _OF_CAMERA:
             angle = math.remainder(YAWS[direction] - self._heading, 2.0 * math.pi)
         if motion.kind == "turn" or direction == "around":
