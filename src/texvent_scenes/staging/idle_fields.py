@@ -38,7 +38,7 @@ from texvent_scenes.spec.scene import (
 )
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.tracks.choose_track import choose_track
-from texvent_scenes.staging.tracks.motion_plan import plan_motion, with_heading
+from texvent_scenes.staging.tracks.motion_plan import plan_motion
 from texvent_scenes.staging.tracks.phases import PATH_KINDS, fits_in_hand, rests_in_hand
 
 RESTS = frozenset({"stand", "stand open", "stand closed", "sit", "lie", "hang", "move"})
@@ -49,6 +49,9 @@ _ALIKE = (
 )
 """Directions of travel and of turns: if one of them changes something, each says something."""
 _OPPOSITE = (("left", "right"), ("towards", "away"), ("forward", "backward"), ("up", "down"))
+TURNS = ("left", "right", "clockwise", "counter-clockwise", "towards", "away", "around", "backward")
+"""Directions of a turn: left and right are the driver's, "towards" and "away" where it then heads.
+"""
 _SHARES = (0.0, 0.07, 0.13, 0.21, 0.29, 0.41, 0.5, 0.6, 0.71, 0.83, 0.97)
 """Instants at which bodies are compared, as shares of the time up to the last start, and after."""
 _USUAL_S = 2.0
@@ -96,8 +99,9 @@ class _Body:
     def _put_on(self, one: SceneObject, duration_s: float) -> Actor:
         motions = decide_motions(one.motions, self.noun) or (STANDING,)
         rng, model = np.random.default_rng(0), _model(self.noun)
-        plan = plan_motion(motions, self.noun, model, duration_s, rng, one.height_m)
-        plan = with_heading(plan, one.heading_deg)
+        plan = plan_motion(
+            motions, self.noun, model, duration_s, rng, one.height_m, one.heading_deg
+        )  # fmt: skip
         track = choose_track(plan, model, (0.0, 0.0, one.height_m or 1.0), rng)
         crosses = motions[0].direction == "across"
         return Actor(0, self.noun, model, track, True, 1, goes_across=crosses)
@@ -254,7 +258,10 @@ def _idle_motions(where: str, one: SceneObject, body: _Body) -> Iterator[Idle]:
             given, usual = getattr(motion, each.name), each.default
             if each.name == "kind" or given == usual or motion.kind in RESTS - {"move"}:
                 continue
-            if not body.reads(one, number, each.name):
+            is_no_turn = motion.kind == "turn" and each.name == "direction"
+            if is_no_turn and given not in TURNS:
+                yield Idle(f"{path}.direction", f"a turn goes: {', '.join(TURNS)}")
+            elif not body.reads(one, number, each.name):
                 yield Idle(f"{path}.{each.name}", _who_reads(body, one, motion, each.name))
     if one.heading_deg is not None:
         bare = replace(one, heading_deg=None)

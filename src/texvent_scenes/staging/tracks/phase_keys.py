@@ -18,6 +18,7 @@ from texvent_scenes.models.protocol import Model, Noun, Pose
 from texvent_scenes.models.shapes import bounds
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.spec.scene import Motion
+from texvent_scenes.staging.tracks.corners import corner
 from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, HOP_PAUSE_S, Key, flight_s
 from texvent_scenes.staging.tracks.phases import (
     PATH_KINDS,
@@ -265,6 +266,8 @@ class _KeyBuilder:
         if motion.kind == "slide" and self._noun.motion == "drive":
             self._swing_round(span)
         segments = self._choose_segments(motion)
+        if end is None and not climb and self._go_round_corner(motion, segments, speed, span):
+            return
         self._start(speed)
         if end is not None and segments[-1][1]:
             segments = [(0.65 * share, turn) for share, turn in segments] + [(0.35, 0.0)]
@@ -283,6 +286,26 @@ class _KeyBuilder:
             self._append(Key(lead * last_s, speed, 0.0, climb, first_ramp, activity))
             rest_s = (1.0 - lead) * last_s
             self._append(Key(rest_s, end, 0.0, climb, ramp * last_s, activity))
+
+    def _go_round_corner(
+        self, motion: Motion, segments: Sequence[tuple[float, float]], speed: float, span: float
+    ) -> bool:
+        """Go another way from a time that is said, and tell whether there is room for it."""
+        before = self.keys[-1]
+        is_straight = before.rates[1:] == (0.0, 0.0, 0.0) and not (before.hop_m or before.swing_hz)
+        is_leg = motion.kind in PATH_KINDS and motion.direction in YAWS and len(segments) == 2
+        is_flying = before.restitution is not None
+        if motion.start_s is None or is_flying or not (is_straight and is_leg):
+            return False
+        last = Key(span, speed, activity=activity_of(motion.kind))
+        least_m = least_radius(self._model, self._noun)
+        keys = corner(before, last, segments[0][1], span, least_m)
+        if not keys:
+            return False
+        self.keys[-1] = keys[0]
+        for key in keys[1:]:
+            self._append(key)
+        return True
 
     @property
     def _now_s(self) -> float:
