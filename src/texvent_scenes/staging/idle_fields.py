@@ -7,7 +7,7 @@ places and light have tables: `READ_BY_MOVES`, and the conditions below.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields, replace
 from functools import lru_cache
 from itertools import islice
@@ -19,6 +19,7 @@ from texvent.errors import few, shown
 from texvent_scenes.colours import rgb_of
 from texvent_scenes.defaults import decide_motions
 from texvent_scenes.description import STANDING
+from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.materials import in_material
 from texvent_scenes.models.nouns import MOTIONS
@@ -37,8 +38,8 @@ from texvent_scenes.spec.scene import (
 )
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.tracks.choose_track import choose_track
-from texvent_scenes.staging.tracks.motion_plan import plan_motion, with_heading
-from texvent_scenes.staging.tracks.phases import PATH_KINDS
+from texvent_scenes.staging.tracks.motion_plan import plan_motion
+from texvent_scenes.staging.tracks.phases import PATH_KINDS, fits_in_hand, rests_in_hand
 
 RESTS = frozenset({"stand", "stand open", "stand closed", "sit", "lie", "hang", "move"})
 """Motions that say no more than a noun does anyway."""
@@ -48,6 +49,9 @@ _ALIKE = (
 )
 """Directions of travel and of turns: if one of them changes something, each says something."""
 _OPPOSITE = (("left", "right"), ("towards", "away"), ("forward", "backward"), ("up", "down"))
+TURNS = ("left", "right", "clockwise", "counter-clockwise", "towards", "away", "around", "backward")
+"""Directions of a turn: left and right are the driver's, "towards" and "away" where it then heads.
+"""
 _SHARES = (0.0, 0.07, 0.13, 0.21, 0.29, 0.41, 0.5, 0.6, 0.71, 0.83, 0.97)
 """Instants at which bodies are compared, as shares of the time up to the last start, and after."""
 _USUAL_S = 2.0
@@ -89,14 +93,15 @@ def _model(noun: Noun) -> Model:
 class _Body:
     """A noun's model, on which motions are tried out."""
 
-    def __init__(self, noun: Noun) -> None:
-        self.noun = noun
+    def __init__(self, noun: Noun, *, is_held: bool = False) -> None:
+        self.noun, self.is_held = noun, is_held
 
     def _put_on(self, one: SceneObject, duration_s: float) -> Actor:
         motions = decide_motions(one.motions, self.noun) or (STANDING,)
         rng, model = np.random.default_rng(0), _model(self.noun)
-        plan = plan_motion(motions, self.noun, model, duration_s, rng, one.height_m)
-        plan = with_heading(plan, one.heading_deg)
+        plan = plan_motion(
+            motions, self.noun, model, duration_s, rng, one.height_m, one.heading_deg
+        )  # fmt: skip
         track = choose_track(plan, model, (0.0, 0.0, one.height_m or 1.0), rng)
         crosses = motions[0].direction == "across"
         return Actor(0, self.noun, model, track, True, 1, goes_across=crosses)
@@ -183,11 +188,15 @@ def list_idle(scene: Scene, decided: Scene, nouns: Mapping[str, Noun]) -> Iterat
         id for one, own in zip(scene.objects, ids, strict=True)
         for each in one.relations if each.kind not in PLACING for id in (own, *each.to)
     }  # fmt: skip
+    held = dict(_list_held(scene, ids))
     for number, one in enumerate(scene.objects):
-        where, body = f"objects[{number}]", _Body(nouns[one.noun])
+        holder = held.get(ids[number])
+        where, body = f"objects[{number}]", _Body(nouns[one.noun], is_held=holder is not None)
         yield from _idle_looks(where, one, body.noun)
         # What an act, a route or a companion makes of a motion is not seen on one body alone.
-        if ids[number] not in bound:
+        if holder is not None:
+            yield from _idle_in_hand(where, one, body, holder)
+        elif ids[number] not in bound:
             yield from _idle_motions(where, one, body)
     yield from _idle_moves(scene)
     yield from _idle_light(scene)
@@ -250,13 +259,46 @@ def _idle_motions(where: str, one: SceneObject, body: _Body) -> Iterator[Idle]:
             given, usual = getattr(motion, each.name), each.default
             if each.name == "kind" or given == usual or motion.kind in RESTS - {"move"}:
                 continue
-            if not body.reads(one, number, each.name):
+            is_no_turn = motion.kind == "turn" and each.name == "direction"
+            if is_no_turn and given not in TURNS:
+                yield Idle(f"{path}.direction", f"a turn goes: {', '.join(TURNS)}")
+            elif not body.reads(one, number, each.name):
                 yield Idle(f"{path}.{each.name}", _who_reads(body, one, motion, each.name))
     if one.heading_deg is not None:
         bare = replace(one, heading_deg=None)
         turned = (replace(one, heading_deg=angle) for angle in (one.heading_deg, 17.0, 101.0))
         if not any(body.differ(each, bare) for each in turned):
             yield Idle(f"{where}.heading_deg", f"a {one.noun} shows its front to the camera then")
+
+
+def _list_held(scene: Scene, ids: Sequence[str]) -> Iterator[tuple[str, str]]:
+    """Id of each thing that is in a hand → id of whose hand it is."""
+    nouns = {id: one.noun for one, id in zip(scene.objects, ids, strict=True)}
+    for one, own in zip(scene.objects, ids, strict=True):
+        for each in one.relations:
+            if each.kind in ("hold", "wear"):
+                yield from ((to, own) for to in each.to[: None if each.kind == "wear" else 1])
+            elif each.kind == "with" and each.to and nouns.get(each.to[0]) in HAND_NOUNS:
+                yield from () if one.noun in PERSON_NOUNS | HAND_NOUNS else [(own, each.to[0])]
+
+
+def _idle_in_hand(where: str, one: SceneObject, body: _Body, holder: str) -> Iterator[Idle]:
+    """Fields of what is held that its holder decides, and of its motions in the hand."""
+    why = f"it is held: its place is that of {shown(holder)}, to which the field belongs"
+    for name in ("position_m", "height_m", "heading_deg", "placement"):
+        if getattr(one, name) is not None:
+            yield Idle(f"{where}.{name}", why)
+    unfit = [number for number, motion in enumerate(one.motions)
+             if not fits_in_hand(motion, body.noun) and not rests_in_hand(motion, body.noun)]  # fmt: skip
+    for number in unfit:
+        kind = one.motions[number].kind
+        yield Idle(
+            f"{where}.motions[{number}].kind",
+            f"a {one.noun} that is held does not {kind}; give {shown(holder)} the motion, or leave "
+            "out the relation; in a hand it can tilt, sway, rotate, spin",
+        )
+    if not unfit:
+        yield from _idle_motions(where, one, body)
 
 
 def _why_not_done(body: _Body, one: SceneObject, kind: str) -> str:
@@ -272,7 +314,8 @@ def _why_not_done(body: _Body, one: SceneObject, kind: str) -> str:
 def _name_kinds(body: _Body, holds: Callable[[SceneObject], bool]) -> str:
     """The first kinds of motion of a noun for which something holds, its usual one before all."""
     usual = [body.noun.motion, *sorted(body.noun.acts)]
-    kinds = [kind for kind in dict.fromkeys((*usual, *sorted(MOTIONS))) if kind not in RESTS]
+    kinds = [kind for kind in dict.fromkeys((*usual, *sorted(MOTIONS))) if kind not in RESTS
+             and not (body.is_held and not fits_in_hand(Motion(kind), body.noun))]  # fmt: skip
     does = (kind for kind in kinds
             if holds(SceneObject(body.noun.name, motions=(Motion(kind),))))  # fmt: skip
     named = list(islice(does, _MOST_NAMED + 1))

@@ -30,6 +30,8 @@ _NEAREST = ("zoom", "dolly", STATED["zoom"], STATED["dolly"])
 """Channels that are framed where they are nearest; the others in the middle of their range."""
 _CHANNELS = (*AMOUNTS, *STATED.values())
 _NEGATIVE = ("left", "down", "out", "counter-clockwise", "backward")
+_NEGATIVE_ORBITS = ("left", "clockwise")
+"""Ways round a subject that are clockwise as seen from above: the camera goes to the left."""
 _LEAST_DISTANCE, _VIEWS_RAD = 0.02, (math.radians(1.0), math.radians(150.0))
 """Least share of its distance at which a stated dolly stops, and fields of view of a zoom."""
 _HANDHELD = (
@@ -128,7 +130,8 @@ def _expand(timed: TimedMove) -> Iterator[Term]:
         stated = move.speed_m_s if turn is None else math.radians(turn)
         if stated is not None:
             rate, channel = stated, STATED.get(move.kind, move.kind)
-        drift = -rate if move.direction in _NEGATIVE else rate
+        negative = _NEGATIVE_ORBITS if move.kind == "orbit" else _NEGATIVE
+        drift = -rate if move.direction in negative else rate
         offset = -drift * timed.begin_s
         yield Term(channel, drift=drift, offset=offset, begin_s=begin_s, end_s=end_s)
 

@@ -9,16 +9,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from texvent_scenes.models.activities import PERSON_NOUNS
+from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.anchors import find_support, top_heights
 from texvent_scenes.models.people.outfit import CLOTHES, list_props
 from texvent_scenes.models.protocol import Noun, Pose
-from texvent_scenes.models.shapes import Affine, shift
+from texvent_scenes.models.shapes import Affine, compose, point, shift
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor, size_of
 from texvent_scenes.staging.tracks.keys import Vector
-from texvent_scenes.staging.tracks.track import Grips, Track, attached, rotation, seated
+from texvent_scenes.staging.tracks.track import Grips, Swing, Track, attached, rotation, seated
 
 _LARGE_M = 0.36
 """Size above which a thing is held in both arms."""
@@ -38,6 +38,10 @@ _STRETCH = 0.60
 
 _SEAT_M = 0.42
 """Height of the hips over the origin of who sits, for an adult, m."""
+
+
+_IN_PALM, _HAND_M = 0.35, 0.1
+"""How far up a hand alone holds a thing, as a share of its height, and at most, m."""
 
 
 class Hold(NamedTuple):
@@ -78,14 +82,15 @@ def moving(actor: Actor, path: Track) -> Actor:
 
 
 def held_at(
-    holder: Actor, anchor: str, offset: Affine, *, is_upright: bool = False, activity: str = "stand"
-) -> Track:
+    holder: Actor, anchor: str, offset: Affine, *, is_upright: bool = False,
+    activity: str = "stand", swing: Swing | None = None,
+) -> Track:  # fmt: skip
     """A track fixed to a named place of a body: `offset` [3, 4] are axes at that place.
 
     What is upright faces as its holder does.
     """
     axes = partial(_upright, holder, anchor) if is_upright else partial(holder.anchor, anchor)
-    return attached(holder.track, offset, activity, axes)
+    return attached(holder.track, offset, activity, axes, swing)
 
 
 def _upright(holder: Actor, anchor: str, time_s: float) -> Float64Array:
@@ -94,20 +99,84 @@ def _upright(holder: Actor, anchor: str, time_s: float) -> Float64Array:
 
 
 def hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
-    """Both, the thing in the hands of who holds it; who sits keeps them where they are."""
+    """Both, the thing in the hands of who holds it; who sits keeps them where they are.
+
+    What tilts, sways or turns does so in the hand, and the hands go with it.
+    """
+    if subject.noun.name in HAND_NOUNS:
+        return _in_palm(subject, target)
     if not is_person(subject):
-        return subject, carried(target, held_at(subject, "mouth", _in_mouth(target)), subject)
+        offset = _in_mouth(target)
+        held = held_at(subject, "mouth", offset, swing=_swing(target, offset))
+        return subject, carried(target, held, subject)
     doing = subject.track.at(0.0).activity
     props = (one.anchor for one in list_props(doing) if target.noun.name in one.nouns)
     hand = next((one for one in props if one in _HANDS), "right hand")
     named = (style for style in _STYLES if target.noun.name in nouns_with(style))
     by_size = "in both arms" if target.size_m > _LARGE_M else "held upright"
     hold = place_in_hold(next(named, by_size), subject, target)
-    if is_person(subject) and doing in _HANDS_FREE:
-        subject = replace(subject, track=_gripping(subject.track, hold.grips))
+    is_in_arms = hold.anchor == "ground"
+    swing = _swing(target, hold.offset, is_in_arms=is_in_arms)
+    if doing in _HANDS_FREE:
+        path = _gripping(subject.track, hold.grips)
+        if swing is not None and is_in_arms and swing.is_to_and_fro:
+            path = replace(path, grips_turn=partial(_turn_of, swing, hold.offset))
+        subject = replace(subject, track=path)
     anchor = hand if hold.anchor in _HANDS else hold.anchor
-    held = held_at(subject, anchor, hold.offset, is_upright=hold.is_upright)
+    held = held_at(subject, anchor, hold.offset, is_upright=hold.is_upright, swing=swing)
     return subject, carried(target, held, subject)
+
+
+def _swing(thing: Actor, offset: Affine, *, is_in_arms: bool = False) -> Swing | None:
+    """What a thing does of itself in a hand, about the hand; in both arms about its middle."""
+    path = thing.track
+    if path.is_resting and path.at(0.0).activity == "stand":
+        return None
+    middle = (0.0, 0.0, 0.5 * thing.model.height - thing.foot_m)
+    return Swing(path, middle if is_in_arms else point(_inverse(offset)[:, 3]))
+
+
+def _inverse(axes: Affine) -> Affine:
+    turn = axes[:, :3].T
+    return np.column_stack([turn, -turn @ axes[:, 3]])
+
+
+def _turn_of(swing: Swing, offset: Affine, time_s: float) -> Affine:
+    """[3, 4] by which what is held has turned, in the axes of the place that it is held at."""
+    return compose(compose(offset, swing.turned(time_s)), _inverse(offset))
+
+
+def _in_palm(hand: Actor, thing: Actor) -> tuple[Actor, Actor]:
+    """A thing before the palm of a hand alone, by its foot or its handle; the hand turns with it."""
+    below = min(_IN_PALM * thing.model.height, _HAND_M)
+    depth = 0.5 * thing.model.length if thing.model.length < _HAND_M else 0.0
+    offset = along_tool(thing) if is_tool(thing) else shift(depth, 0.0, thing.foot_m - below)
+    swing, free = _swing(thing, offset), hand
+    if swing is not None:
+        palm = np.linalg.solve(
+            _square(hand.track.at(0.0).to_world()), _square(hand.anchor("palm", 0.0))
+        )[:3]
+        turn = partial(_turned_hand, free, palm, swing, offset)
+        gesture = hand.track.at(0.0).activity
+        hand = moving(hand, attached(hand.track, shift(0.0, 0.0, 0.0), gesture, turn))
+    return hand, carried(thing, held_at(hand, "palm", offset, swing=_looks(swing)), hand)
+
+
+def _looks(swing: Swing | None) -> Swing | None:
+    """The same activities of a thing, with which the hand turns."""
+    return None if swing is None else replace(swing, is_turned=False)
+
+
+def _turned_hand(
+    hand: Actor, palm: Affine, swing: Swing, offset: Affine, time_s: float
+) -> Affine:  # fmt: skip
+    """[3, 4] body of a hand in the world, turned about its palm as what it holds."""
+    own = compose(compose(palm, _turn_of(swing, offset, time_s)), _inverse(palm))
+    return compose(hand.track.at(time_s).to_world(), own)
+
+
+def _square(axes: Affine) -> Float64Array:
+    return np.vstack([axes, [0.0, 0.0, 0.0, 1.0]])
 
 
 def _in_mouth(thing: Actor) -> Affine:

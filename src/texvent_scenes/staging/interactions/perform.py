@@ -25,7 +25,7 @@ from texvent_scenes.staging.interactions import handling, holding, machines, ral
 from texvent_scenes.staging.interactions.holding import hides_riders
 from texvent_scenes.staging.interactions.sending import send_into
 from texvent_scenes.staging.placement.zones import are_driven
-from texvent_scenes.staging.tracks.phases import PATH_KINDS
+from texvent_scenes.staging.tracks.phases import PATH_KINDS, fits_in_hand
 from texvent_scenes.staging.tracks.track import attached
 
 _Act = Callable[[Actor, Actor, float, int], tuple[Actor | None, Actor | None]]
@@ -123,10 +123,17 @@ def _directed(said: SceneObject, direction: Direction) -> SceneObject:
 def _in_hand(
     relations: Sequence[IndexedRelation], objects: Sequence[SceneObject]
 ) -> Iterator[IndexedRelation]:
-    """A person "with" small things wears what can be worn, and holds the first of the others."""
+    """A person "with" small things wears what can be worn, and holds the first of the others.
+
+    A hand holds what is "with" it.
+    """
     holding = {one.subject for one in relations if one.kind in ACTS and one.kind != "hit"}
     for one in relations:
-        thing = objects[one.targets[0]].noun
+        thing, who = objects[one.targets[0]].noun, objects[one.subject].noun
+        is_in_hand = thing in HAND_NOUNS and who not in PERSON_NOUNS | HAND_NOUNS
+        if one.kind == "with" and is_in_hand:  # "a board with a hand"
+            yield IndexedRelation("hold", one.targets[0], (one.subject,))
+            continue
         small = nouns_with("in hand or on something") | nouns_with("held as a tool")
         is_small = thing in small and thing not in HAND_NOUNS
         if one.kind != "with" or not is_small or objects[one.subject].noun not in PERSON_NOUNS:
@@ -162,7 +169,14 @@ def _settle(
         return subject, still
     if kind in ("wear", "act on"):
         return subject, still if kind == "wear" else target
+    if kind == "hold":
+        held = [one for one in target.motions if fits_in_hand(one, nouns[target.noun])]
+        still = replace(target, motions=() if all(map(_is_rest, held)) else tuple(held))
     return subject, _smaller(still, trait_value("carried size", target.noun) or 1.0)
+
+
+def _is_rest(motion: Motion) -> bool:
+    return motion.kind in ("stand", "hang", "sit", "lie")
 
 
 def _smaller(said: SceneObject, share: float) -> SceneObject:

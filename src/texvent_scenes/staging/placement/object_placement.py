@@ -55,7 +55,6 @@ from texvent_scenes.staging.tracks.keys import Vector
 from texvent_scenes.staging.tracks.motion_plan import (
     plan_motion,
     raised,
-    with_heading,
 )
 from texvent_scenes.staging.tracks.phases import haste_of
 from texvent_scenes.staging.tracks.track import Track, seated
@@ -148,12 +147,13 @@ class ObjectPlacer:
         if scene_object.picture is not None and can_show(noun.name):
             models = [PicturedModel(one, noun.name, scene_object.picture) for one in models]
         motions, start_m = scene_object.motions or (STANDING,), scene_object.height_m
-        plan = plan_motion(motions, noun, models[0], self._duration_s, rng, start_m)
         rows = [one.value for one in self._description.claims
                 if one.kind == "row" and one.subject == index]  # fmt: skip
-        is_queue = "queue" in rows and noun.motion == "walk" and not plan.motion.is_moving
+        is_queue = "queue" in rows and noun.motion == "walk" and not motions[0].is_moving
         heading_deg = 0.0 if is_queue and not scene_object.heading_deg else scene_object.heading_deg
-        plan = with_heading(plan, heading_deg)
+        plan = plan_motion(
+            motions, noun, models[0], self._duration_s, rng, start_m, heading_deg
+        )  # fmt: skip
         offsets = stagger(models, plan, noun, rng, is_row=bool(rows))
         half = half_extents_over_clip(models, offsets, plan)
         return ObjectGroup(index, scene_object, noun, models, plan, offsets, half)

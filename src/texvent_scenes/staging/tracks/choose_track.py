@@ -28,6 +28,7 @@ from texvent_scenes.staging.tracks.phases import (
     oscillations,
 )
 from texvent_scenes.staging.tracks.track import TO_CAMERA, Term, Track, ballistic, steady
+from texvent_scenes.staging.tracks.turning import CLOCKWISE, spin_sign, work_sign
 
 _STAYING = frozenset({"stand", "sit", "lie", "hang", *ANIMAL_ACTIVITIES})
 """Activities in place of bodies without hands."""
@@ -108,7 +109,7 @@ def orbit(plan: MotionPlan, centre: Vector, radius_m: float, share: float) -> Tr
         rate = plan.motion.speed_m_s / radius_m
     else:
         rate = min(rate, _ORBIT_HASTE * plan.speed_m_s / radius_m)
-    rate *= -1.0 if plan.motion.direction in ("right", "clockwise") else 1.0
+    rate *= -1.0 if plan.motion.direction in CLOCKWISE else 1.0
     activity = plan.motion.kind if plan.motion.kind in ("walk", "run") else "move"
     begin, (x, y, z) = _NEAREST + 2.0 * math.pi * share - 0.5 * rate * plan.duration_s, centre
     start = (x + radius_m * math.cos(begin), y + radius_m * math.sin(begin), z)
@@ -138,7 +139,7 @@ def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) ->
     is_afloat = motion.kind == "float" and home[2] < 0.0  # not in the air
     activity = motion.kind if motion.kind in _STAYING or is_afloat else "move"
     if not waves:
-        sign = -1.0 if motion.direction == "clockwise" else 1.0
+        sign = work_sign(motion.direction, model)
         waves = _tempo(sign * motion.pace, sign * _gain(plan))
     elif motion.kind in LEANING:
         activity = "stand"
@@ -153,8 +154,8 @@ def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) ->
 
 def _spin(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Track:
     """A wheel about its axle, a flat shape in the picture, the rest about the vertical."""
-    is_clockwise = plan.motion.direction in ("right", "clockwise")
-    usual = 2.0 * math.pi * (-SPIN_RATE_HZ if is_clockwise else SPIN_RATE_HZ)
+    sign = spin_sign(plan.motion.direction, plan.spin_axis, plan.yaw)
+    usual = 2.0 * math.pi * sign * SPIN_RATE_HZ
     turn = Term(plan.spin_axis, drift=usual * plan.motion.pace, gain=usual * _gain(plan))
     if plan.spin_axis == "yaw":
         return replace(steady(home, phase), terms=(turn,))

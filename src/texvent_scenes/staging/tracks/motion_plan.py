@@ -97,6 +97,7 @@ def plan_motion(
     duration_s: float,
     rng: np.random.Generator,
     start_m: float | None = None,
+    heading_deg: float | None = None,
 ) -> MotionPlan:
     """Heading and speed of a motion: said by the prompt, or usual for the noun.
 
@@ -115,6 +116,7 @@ def plan_motion(
     start_m = start_m if any(one.kind in COMING_DOWN for one in motions) else None
     motion, toss = motions[0], rng.random()
     yaw = _choose_yaw(motions, noun, model, toss)
+    yaw = yaw if heading_deg is None else math.radians(heading_deg)
     stated = next((m.speed_m_s for m in motions if m.speed_m_s is not None), None)
     speed = usual_speed(noun, motion.kind) if stated is None else stated
     if stated is None and motion.kind == "fly" and motion.direction in _OF_CAMERA:
@@ -136,14 +138,6 @@ def plan_motion(
         return replace(plan, yaw=path.yaw, path=path)
     pace = 1.0 if motion.speed_m_s is not None else motion.pace
     return replace(plan, speed_m_s=speed * pace, gesture=choose_gesture(noun, motion))
-
-
-def with_heading(plan: MotionPlan, heading_deg: float | None) -> MotionPlan:
-    """The plan with the heading that a scene says, degrees, at time 0."""
-    if heading_deg is None:
-        return plan
-    yaw = math.radians(heading_deg)
-    return replace(plan, yaw=yaw, path=plan.path and replace(plan.path, yaw=yaw))
 
 
 def raised(plan: MotionPlan, by_m: float) -> MotionPlan:

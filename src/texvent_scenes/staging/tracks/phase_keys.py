@@ -18,6 +18,7 @@ from texvent_scenes.models.protocol import Model, Noun, Pose
 from texvent_scenes.models.shapes import bounds
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.spec.scene import Motion
+from texvent_scenes.staging.tracks.corners import corner
 from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, HOP_PAUSE_S, Key, flight_s
 from texvent_scenes.staging.tracks.phases import (
     PATH_KINDS,
@@ -34,6 +35,7 @@ from texvent_scenes.staging.tracks.phases import (
     usual_speed,
 )
 from texvent_scenes.staging.tracks.track import Term, Track, centred
+from texvent_scenes.staging.tracks.turning import CLOCKWISE, spin_sign
 
 NO_FLOOR_M = -1e4
 """Floor of a path that is not yet placed above the ground, m."""
@@ -65,7 +67,6 @@ _LIFT_SHARE, _LANDING_SHARE = 0.3, 0.65
 """Shares of a phase after which wheels leave a runway, or meet it."""
 _OF_CAMERA = ("towards", "away")
 """Directions to which something turns that say where it heads then, and not to which side."""
-_CLOCKWISE = frozenset({"clockwise", "right"})
 _REACHED = {"sit down": "sit", "stand up": "stand"}
 """Getting up and down after something else: the posture that the body goes over to."""
 
@@ -204,7 +205,7 @@ class _KeyBuilder:
             self._spin_on(phase)
         elif motion.kind == "spin":
             turn = 2.0 * math.pi * SPIN_RATE_HZ * motion.pace
-            turn = -turn if motion.direction in _CLOCKWISE else turn
+            turn *= spin_sign(motion.direction, "yaw", 0.0)
             self._start(0.0, turn)
             self._append(Key(span, 0.0, turn, ramp_s=min(0.4, 0.5 * span)))
         elif motion.kind in ("jump", "bounce"):
@@ -222,7 +223,7 @@ class _KeyBuilder:
         """Turn a wheel about its axle, or a flat shape in the picture."""
         model, begin_s, axis = self._model, phase.start_s, self._spin_axis
         rate = 2.0 * math.pi * SPIN_RATE_HZ * phase.motion.pace
-        rate = -rate if phase.motion.direction in _CLOCKWISE else rate
+        rate *= spin_sign(phase.motion.direction, axis, self._heading)
         times = {"begin_s": begin_s, "end_s": phase.end_s}
         self.terms.append(Term(axis, drift=rate, offset=-rate * begin_s, **times))
         self.pivot_m = 0.5 * model.height
@@ -287,6 +288,8 @@ class _KeyBuilder:
         if motion.kind == "slide" and self._noun.motion == "drive":
             self._swing_round(span)
         segments = self._choose_segments(motion)
+        if end is None and not climb and self._go_round_corner(motion, segments, speed, span):
+            return
         self._start(speed)
         if end is not None and segments[-1][1]:
             segments = [(0.65 * share, turn) for share, turn in segments] + [(0.35, 0.0)]
@@ -306,6 +309,26 @@ class _KeyBuilder:
             rest_s = (1.0 - lead) * last_s
             self._append(Key(rest_s, end, 0.0, climb, ramp * last_s, activity))
 
+    def _go_round_corner(
+        self, motion: Motion, segments: Sequence[tuple[float, float]], speed: float, span: float
+    ) -> bool:
+        """Go another way from a time that is said, and tell whether there is room for it."""
+        before = self.keys[-1]
+        is_straight = before.rates[1:] == (0.0, 0.0, 0.0) and not (before.hop_m or before.swing_hz)
+        is_leg = motion.kind in PATH_KINDS and motion.direction in YAWS and len(segments) == 2
+        is_flying = before.restitution is not None
+        if motion.start_s is None or is_flying or not (is_straight and is_leg):
+            return False
+        last = Key(span, speed, activity=activity_of(motion.kind))
+        least_m = least_radius(self._model, self._noun)
+        keys = corner(before, last, segments[0][1], span, least_m)
+        if not keys:
+            return False
+        self.keys[-1] = keys[0]
+        for key in keys[1:]:
+            self._append(key)
+        return True
+
     @property
     def _now_s(self) -> float:
         """End of the last key, s."""
@@ -323,7 +346,7 @@ class _KeyBuilder:
         """Shares of the time, and by what angle each one turns, rad."""
         direction = motion.direction or ""
         angle = math.pi if direction == "around" else QUARTER
-        angle = -angle if direction in _CLOCKWISE else angle
+        angle = -angle if direction in CLOCKWISE else angle
         if motion.kind == "turn" and direction in _OF_CAMERA:
             angle = math.remainder(YAWS[direction] - self._heading, 2.0 * math.pi)
         if motion.kind == "turn" or direction == "around":

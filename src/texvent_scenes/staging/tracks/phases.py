@@ -24,6 +24,13 @@ SWINGS = frozenset({"to and fro", "up and down"})
 """Directions of what comes back."""
 _KEYED = STEERED - PATH_KINDS | {"jump", "rise", "sink", "topple", "plunge"}
 
+_UNTIED = GOING | _KEYED | {"bounce", "fall", "throw", "orbit", "break", "blow", "topple"}
+"""Motions of what no hand holds."""
+_ALOFT = frozenset({"float", "hover", "fly"})
+"""What hangs in the air does, which in a hand is rest."""
+ASTRAY = frozenset({"to and fro", "up and down", "around"})
+"""Directions that lead away from a place, whatever the motion is; a board may sway to and fro."""
+
 YAWS = {
     "right": 0.0,
     "left": math.pi,
@@ -106,6 +113,21 @@ def needs_steering(motions: Sequence[Motion]) -> bool:
         or bool(first.start_s)
         or first.kind in _KEYED
         or (first.kind in PATH_KINDS and first.direction in _STEERED_DIRECTIONS)
+    )
+
+
+def fits_in_hand(motion: Motion, noun: Noun) -> bool:
+    """Whether what is held does this in the hand: it tilts, turns or works, and goes nowhere."""
+    if motion.kind == "turn":  # what drives goes along as it turns
+        return noun.speed_m_s == 0.0 or noun.habitat == "fixed"
+    is_going = motion.direction in ASTRAY and motion.kind != "sway"
+    return motion.kind not in _UNTIED | _ALOFT and not is_going
+
+
+def rests_in_hand(motion: Motion, noun: Noun) -> bool:
+    """Whether it says no more than that the thing is held."""
+    return motion.kind in ("stand", "hang", "sit", "lie", "move") or (
+        motion.kind in _ALOFT and noun.habitat == "air"
     )
 
 

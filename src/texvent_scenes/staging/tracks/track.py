@@ -132,6 +132,38 @@ def add_up(terms: Iterable[Term], time_s: float) -> dict[str, float]:
 
 
 @dataclass(frozen=True)
+class Swing:
+    """Turning of a body in the hand that holds it, as its own track has it where it stands."""
+
+    track: Track
+    pivot: Vector
+    """Point about which it turns, body coordinates, m."""
+    is_turned: bool = True
+    """Whether it turns itself, not its holder with it."""
+
+    @property
+    def is_to_and_fro(self) -> bool:
+        """Whether it comes back from its turns, so that two hands can go along."""
+        is_turning = any(key.turn_rad_s for key in self.track.keys)
+        return not is_turning and not any(one.drift for one in self.track.terms)
+
+    def turned(self, time_s: float) -> Float64Array:
+        """[3, 4] map to its body coordinates, from those that it had at rest."""
+        if not self.is_turned:
+            return shift(0.0, 0.0, 0.0)
+        rest = TO_CAMERA if self.track.is_facing else self.track.yaw
+        state = self.track.at(time_s)
+        about = rotation(rest, 0.0, 0.0).T @ rotation(state.yaw, state.pitch, state.roll)
+        pivot = np.array(self.pivot)
+        return affine(about, pivot - about @ pivot)
+
+    def looks(self, time_s: float) -> dict[str, Any]:
+        """Fields of its state that are its own."""
+        state = self.track.at(time_s)
+        return {name: getattr(state, name) for name in ("activity", "act_s", "tempo", "scale")}
+
+
+@dataclass(frozen=True)
 class Attachment:
     """Axes that another body carries: its own, those of a named place, or of a part."""
 
@@ -140,12 +172,19 @@ class Attachment:
     """Instant, s → [3, 4] these axes in the world."""
     offset: Float64Array
     """[3, 4] body coordinates of what is carried, in these axes."""
+    swing: Swing | None = None
+    """What it does of itself, where it is held."""
 
     def at(self, time_s: float) -> BodyState:
         """State of what is carried."""
-        below = self.carrier.at(time_s)
-        state = state_of(compose(self.axes(time_s), self.offset))
-        return replace(state, distance_m=below.distance_m, speed_m_s=below.speed_m_s)
+        below, offset = self.carrier.at(time_s), self.offset
+        if self.swing is not None:
+            offset = compose(offset, self.swing.turned(time_s))
+        state = state_of(compose(self.axes(time_s), offset))
+        fields = {} if self.swing is None else self.swing.looks(time_s)
+        return replace(
+            state, **({"distance_m": below.distance_m, "speed_m_s": below.speed_m_s} | fields)
+        )
 
 
 @dataclass(frozen=True)
@@ -180,6 +219,8 @@ class Track:
     activity: str | None = None
     """Takes the place of those of the keys."""
     grips: Grips = ()
+    grips_turn: Callable[[float], Float64Array] | None = None
+    """Instant, s → [3, 4] where what is gripped has taken the places of the hands."""
     contact_s: float | None = None
     """Instant of contact of a single act, s."""
 
@@ -211,9 +252,15 @@ class Track:
             state = self._add_terms(self._follow_keys(time_s), time_s)
         return state.with_fields(
             activity=self.activity or state.activity,
-            grips=self.grips,
+            grips=self._gripped(time_s),
             act_s=state.act_s if self.contact_s is None else time_s - self.contact_s,
         )
+
+    def _gripped(self, time_s: float) -> Grips:
+        if self.grips_turn is None:
+            return self.grips
+        turn = self.grips_turn(time_s)
+        return tuple((name, point(turn @ [*place, 1.0])) for name, place in self.grips)
 
     def _follow_keys(self, time_s: float) -> BodyState:
         knot, key, elapsed = self._find(time_s)
@@ -292,11 +339,16 @@ def ballistic(
 
 def attached(
     carrier: Track, offset: Float64Array, activity: str = "stand",
-    axes: Callable[[float], Float64Array] | None = None,
+    axes: Callable[[float], Float64Array] | None = None, swing: Swing | None = None,
 ) -> Track:  # fmt: skip
-    """A track fixed to axes that a body carries, else to its own: `offset` [3, 4] is in them."""
-    anchor = Attachment(carrier, axes or (lambda time_s: carrier.at(time_s).to_world()), offset)
-    return Track((0.0, 0.0, 0.0), anchor=anchor, activity=activity)
+    """A track fixed to axes that a body carries, else to its own: `offset` [3, 4] is in them.
+
+    What swings there has activities of its own.
+    """
+    axes = axes or (lambda time_s: carrier.at(time_s).to_world())
+    anchor = Attachment(carrier, axes, offset, swing)
+    own = activity if swing is None else None
+    return Track((0.0, 0.0, 0.0), anchor=anchor, activity=own)
 
 
 def seated(carrier: Track, seat: Vector, activity: str) -> Track:

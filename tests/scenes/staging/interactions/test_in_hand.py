@@ -1,0 +1,82 @@
+"""What is held tilts, sways and turns in the hand; a motion that no hand holds is refused."""
+
+import math
+
+import numpy as np
+import pytest
+from tests.scenes.every_row import for_every
+from tests.scenes.staged import stage
+
+from texvent.errors import ConfigError
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.scene_input import describe_scene
+from texvent_scenes.spec.scene import Motion, Relation, Scene, SceneObject
+
+HELD = ("checkerboard", "mug", "sign", "box")
+TURNS = ("tilt", "sway", "spin", "rotate")
+BONDS = [("man", "hold"), ("hand", "hold"), ("hand", "with"), ("dog", "hold")]
+ROWS = [(who, kind, noun, turn) for who, kind in BONDS for noun in HELD for turn in TURNS]
+
+
+def hold(who, kind, noun, *motions):
+    objects = (SceneObject(who), SceneObject(noun, motions=motions))
+    relation = (kind, 1, 0) if kind == "with" else (kind, 0, 1)
+    scene = stage(*objects, relations=(relation,))
+    found = {one.object_index: one for one in scene.actors}
+    return found[0], found[1]
+
+
+def turned_deg(actor, others=(0.0,)):
+    """Greatest turn from time 0, degrees."""
+    first = actor.track.at(0.0).to_world()[:, :3]
+    turns = [actor.track.at(float(t)).to_world()[:, :3] for t in np.linspace(0.0, 1.9, 20)]
+    cosines = [0.5 * (np.trace(one @ first.T) - 1.0) for one in turns]
+    return math.degrees(math.acos(max(-1.0, min(1.0, *cosines))))
+
+
+@for_every(ROWS)
+def test_what_is_held_turns_in_the_hand_as_it_does_alone(row):
+    who, kind, noun, turn = row
+    motion = Motion(turn, rate_hz=0.7)
+    holder, thing = hold(who, kind, noun, motion)
+    (alone,) = stage(SceneObject(noun, motions=(motion,))).actors
+    assert turned_deg(thing) > 3.0
+    assert turned_deg(thing) == pytest.approx(turned_deg(alone), rel=0.5)
+    gaps = [np.linalg.norm(thing.middle(t) - holder.middle(t)) for t in np.linspace(0.0, 1.9, 8)]
+    assert max(gaps) < holder.size_m + thing.size_m
+
+
+@for_every([("checkerboard", "tilt"), ("box", "tilt"), ("sign", "sway"), ("box", "sway")])
+def test_hands_go_with_what_they_hold(row):
+    noun, turn = row
+    for who, kind in BONDS[:3]:
+        holder, thing = hold(who, kind, noun, Motion(turn, rate_hz=0.7))
+        places = ("palm",) if who == "hand" else ("right hand",)
+        for place in places:
+            own = []
+            for t in np.linspace(0.0, 1.9, 8):
+                axes = np.vstack([thing.track.at(t).to_world(), [0.0, 0.0, 0.0, 1.0]])
+                own.append(np.linalg.solve(axes, [*holder.anchor(place, t)[:, 3], 1.0])[:3])
+            assert np.ptp(own, axis=0).max() < 0.06, (who, kind)
+
+
+@for_every([(who, kind, noun, gone) for who, kind in BONDS for noun in HELD
+            for gone in ("fall", "bounce", "slide", "rise")])  # fmt: skip
+def test_a_motion_that_no_hand_holds_is_refused_with_what_to_do(row):
+    who, kind, noun, gone = row
+    relations = (Relation(kind, (noun if kind == "hold" else who,)),)
+    held = SceneObject(noun, motions=(Motion(gone),))
+    objects = (SceneObject(who, relations=relations), held)
+    if kind == "with":
+        objects = (SceneObject(who), SceneObject(noun, motions=(Motion(gone),), relations=relations))
+    with pytest.raises(ConfigError, match=rf"^objects\[1\]\.motions\[0\]\.kind .* leave out the"):
+        describe_scene(Scene(objects=objects), NOUNS)
+
+
+@pytest.mark.parametrize("field", [{"position_m": (1.0, 2.0)}, {"height_m": 1.2},
+                                   {"heading_deg": 30.0}, {"placement": "left"}])  # fmt: skip
+@pytest.mark.parametrize("noun", HELD[:3])
+def test_the_place_of_what_is_held_is_that_of_its_holder(field, noun):
+    man = SceneObject("man", relations=(Relation("hold", (noun,)),))
+    with pytest.raises(ConfigError, match=r"^objects\[1\]\.\w+ has no effect: it is held: "):
+        describe_scene(Scene(objects=(man, SceneObject(noun, **field))), NOUNS)

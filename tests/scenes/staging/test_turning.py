@@ -1,0 +1,103 @@
+"""What turns clockwise does so: from above about the vertical, else as the camera sees it."""
+
+import math
+
+import numpy as np
+import pytest
+from tests.scenes.every_row import for_every
+from tests.scenes.staged import middle, stage, thing
+
+from texvent.camera import project
+from texvent.sensor import SensorSize
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.spec.scene import Camera, CameraMove
+
+SIZE = SensorSize(173, 130)
+SENSES = {"clockwise": -1.0, "counter-clockwise": 1.0}
+WORKING = [name for name in ("fan", "clock", "windmill", "ferris wheel", "spinning disc", "globe",
+                             "merry-go-round", "record player", "gear", "watch movement")
+           if NOUNS[name].is_working]  # fmt: skip
+
+
+def axis_of(before, after):
+    """[3] axis of the turn from one [3, 3] to the other, in the world; right-handed."""
+    turn = after @ before.T
+    return np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
+
+
+@for_every([(noun, sense) for noun in ("car", "box", "chair", "drone", "man")
+            for sense in SENSES])  # fmt: skip
+def test_what_spins_about_the_vertical_does_so_as_seen_from_above(row):
+    noun, sense = row
+    (actor,) = stage(thing(noun, ("spin", sense))).actors
+    a, b = (actor.track.at(t).to_world()[:, :3] for t in (1.0, 1.01))
+    assert np.sign(axis_of(a, b)[2]) == SENSES[sense]
+
+
+@for_every([(noun, sense) for noun in ("wheel", "grating", "checkerboard")
+            for sense in SENSES])  # fmt: skip
+def test_a_wheel_or_a_picture_turns_as_the_camera_sees_it(row):
+    noun, sense = row
+    for seed in range(4):
+        (actor,) = stage(thing(noun, ("spin", sense)), seed=seed).actors
+        a, b = (actor.track.at(t).to_world()[:, :3] for t in (1.0, 1.01))
+        axis = axis_of(a, b)
+        seen = axis[2] if abs(axis[2]) > abs(axis[1]) else -axis[1]  # the camera looks along +y
+        assert np.sign(seen) == SENSES[sense], seed
+
+
+@for_every([(noun, sense) for noun in WORKING for sense in SENSES])
+def test_what_works_turns_as_who_sees_its_front_or_top_says(row):
+    noun, sense = row
+    (actor,) = stage(thing(noun, ("work", sense))).actors
+    a, b = (actor.own_parts(actor.pose(t)) for t in (1.0, 1.004))
+    axes = [axis_of(*(each.to_body[:, :3] / np.linalg.norm(each.to_body[:, :3], axis=0)
+                      for each in pair)) for pair in zip(a, b, strict=True)]  # fmt: skip
+    axis = max(axes, key=np.linalg.norm)
+    along = max(axis[0], axis[2], key=abs)
+    assert np.sign(along) == SENSES[sense]
+
+
+@pytest.mark.parametrize("noun", ["bird", "dog", "car"])
+@pytest.mark.parametrize("sense", SENSES)
+def test_what_goes_round_does_so_as_seen_from_above(noun, sense):
+    scene = stage(thing(noun, ("orbit", sense)), thing("box"))
+    one = scene.actors[0]
+    a, b, c = (middle(one, t)[:2] for t in (0.6, 1.0, 1.4))
+    (ax, ay), (bx, by) = b - a, c - b
+    assert np.sign(ax * by - ay * bx) == SENSES[sense]
+
+
+@for_every([(noun, sense) for noun in ("car", "dog", "man", "bus", "drone") for sense in
+            ("clockwise", "counter-clockwise", "left", "right")])  # fmt: skip
+def test_a_turn_is_the_drivers(row):
+    noun, sense = row
+    said = {"left": 1.0, "right": -1.0}.get(sense) or SENSES[sense]
+    (actor,) = stage(thing(noun, ("turn", sense))).actors
+    turned = actor.track.at(1.6).yaw - actor.track.at(0.2).yaw
+    assert turned * said > 0.3
+
+
+@pytest.mark.parametrize("sense", [*SENSES, "left", "right"])
+@pytest.mark.parametrize("noun", ["tree", "car", "chair"])
+def test_a_camera_goes_round_as_seen_from_above(noun, sense):
+    # Who goes round to the right goes anticlockwise.
+    said = {"left": -1.0, "right": 1.0}.get(sense) or SENSES[sense]
+    scene = stage(thing(noun, ("stand",)), camera=Camera((CameraMove("orbit", sense),)))
+    middle_ = middle(scene.actors[0], 1.0)[:2]
+    a, b = (scene.camera(t).position[:2] - middle_ for t in (0.8, 1.2))
+    assert np.sign(a[0] * b[1] - a[1] * b[0]) == said
+
+
+@pytest.mark.parametrize("sense", [*SENSES, "left", "right"])
+def test_a_camera_rolls_as_who_stands_behind_it_sees(sense):
+    said = {"left": 1.0, "right": -1.0}.get(sense) or SENSES[sense]
+    scene = stage(thing("tree"), camera=Camera((CameraMove("roll", sense),)))
+    point = middle(scene.actors[0], 1.0) + [1.0, 0.0, 0.0]
+    angles = []
+    for t in (0.8, 1.2):
+        ends = project(scene.camera(t), SIZE, np.array([middle(scene.actors[0], 1.0), point]))
+        (x, y) = (ends[1] - ends[0])[:2]
+        angles.append(math.atan2(-y, x))
+    # The picture turns the other way.
+    assert np.sign(angles[1] - angles[0]) == -said
