@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from texvent_scenes.description import SEEN
-from texvent_scenes.models.activities import AIMED, PERSON_NOUNS, TO_AND_FROM_SEATS
+from texvent_scenes.models.activities import AIMED, HAND_NOUNS, PERSON_NOUNS, TO_AND_FROM_SEATS
 from texvent_scenes.models.anchors import has_rim, takes_in
 from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.places import PLACES, PlaceModel
@@ -289,6 +289,8 @@ def claim_relation(
     does = {each["kind"] for one in motions for each in one}
     if is_shown and kind == "at" and does & SITTING and nouns <= word_set("things", "sat_at"):
         draft.claim(token, "sit at", "", subjects, targets)
+    if is_shown and token.text == "by" and nouns <= HAND_NOUNS and does - {"stand"}:
+        draft.claim(token, "grip", "hold", targets, subjects)  # "tilted by hand"
     if is_shown and token.text == "along":
         draft.claim(token, "along", "", subjects, targets)
     if is_shown and kind in ("up", "down"):
