@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from texvent_scenes.description import SEEN
-from texvent_scenes.models.activities import PERSON_NOUNS, TO_AND_FROM_SEATS
+from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS, TO_AND_FROM_SEATS
 from texvent_scenes.models.places import PLACES, PlaceModel
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.draft.abilities import MEANS
@@ -186,6 +186,8 @@ def claim_relation(
     does = {each["kind"] for one in motions for each in one}
     if is_shown and kind == "at" and does & SITTING and nouns <= word_set("things", "sat_at"):
         draft.claim(token, "sit at", "", subjects, targets)
+    if is_shown and token.text == "by" and nouns <= HAND_NOUNS and does - {"stand"}:
+        draft.claim(token, "grip", "hold", targets, subjects)  # "tilted by hand"
     if is_shown and token.text == "along":
         draft.claim(token, "along", "", subjects, targets)
     if is_shown and kind in ("up", "down"):

@@ -76,3 +76,14 @@ def test_small_things_for_which_a_row_is_too_long_stand_in_several(text):
 )  # fmt: skip
 def test_what_is_in_the_sky_is_over_the_place_that_is_said(text, place):
     assert staged(text)[0].place is PLACES[place]
+
+
+@pytest.mark.parametrize("text", ["twins walk", "twin sisters dance", "triplets sit on a bench"])
+def test_twins_look_the_same(text):
+    scene = staged(text)[0]
+    first, *others = (
+        [part.colour for part in one.own_parts(one.pose(0.0))]
+        for one in scene.actors if one.object_index == 0
+    )  # fmt: skip
+    assert others
+    assert all(one == first for one in others)

@@ -136,13 +136,13 @@ class ObjectPlacer:
         size = scene_object.size * share
         self.notes.extend(notes)
         colour = rgb_of(scene_object.colour)
+        seeds = [int(rng.integers(2**31)) for _ in range(scene_object.count)]
+        seeds = seeds[:1] * len(seeds) if noun.name in nouns_with("alike") else seeds
         models: list[Model] = [
             in_material(
-                noun.build(colour=colour, scale=size, seed=int(rng.integers(2**31))),
-                scene_object.material,
-                colour,
+                noun.build(colour=colour, scale=size, seed=seed), scene_object.material, colour
             )
-            for _ in range(scene_object.count)
+            for seed in seeds
         ]
         if scene_object.picture is not None and can_show(noun.name):
             models = [PicturedModel(one, noun.name, scene_object.picture) for one in models]
