@@ -12,10 +12,10 @@ from texvent_scenes.colours import rgb_of
 from texvent_scenes.description import Claim, Dependence
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.protocol import Noun
-from texvent_scenes.models.tables import nouns_with, read_table, trait_values
+from texvent_scenes.models.tables import nouns_with, trait_values
 from texvent_scenes.read.draft.copies import OPPOSITE, halve, take_turns
 from texvent_scenes.read.draft.scene_draft import SceneDraft
-from texvent_scenes.read.parsing.lexicon import deeds, word_set
+from texvent_scenes.read.parsing.lexicon import deeds, word_set, word_table
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
 from texvent_scenes.spec.data import scene_from_data
 from texvent_scenes.spec.scene import MAX_BODIES, Scene, number_nouns
@@ -140,7 +140,7 @@ _SEEN_SIZE = 3.0
 
 def _find_opponents(draft: SceneDraft) -> None:
     """Give who plays a rally an opponent, a ball and what they play over."""
-    table = read_table("words", "read")["rallies"]
+    table = word_table("rallies")
     for index, thing in enumerate(tuple(draft.things)):
         kind = next((one["kind"] for one in thing["motions"] if one["kind"] in table), "")
         if not kind or any(one["kind"] == "rally" for one in thing["relations"]):
@@ -175,7 +175,7 @@ def _choose_gender(draft: SceneDraft) -> None:
     """Draw the only person as the one that a pronoun means: "a teacher chops her carrots"."""
     persons = [one for one in draft.things if one["noun"] in PERSON_NOUNS]
     words = {one.text for one in draft.tokens if [each["noun"] for each in persons] == ["person"]}
-    for noun, pronouns in read_table("words", "read")["people"].items():
+    for noun, pronouns in word_table("people").items():
         if words & {*pronouns} and persons[0]["noun"] == "person":
             persons[0]["noun"] = noun
             draft.fates.update({at: noun for at, one in draft.fates.items() if one == "person"})
@@ -222,7 +222,7 @@ _LIGHT = 0.3
 
 def _turn_marks(draft: SceneDraft) -> None:
     """Have a disc turn with a mark on it: "a dot rotates on a disc"."""
-    discs = read_table("words", "read")["turned_with_marks"]
+    discs = word_table("turned_with_marks")
     for mark in (one for one in draft.things if one["noun"] in discs):
         on = [each["to"][0] for each in mark["relations"] if each["kind"] == "on"]
         for index in (n for n in on if draft.things[n]["noun"] in discs):

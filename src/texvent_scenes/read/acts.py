@@ -12,11 +12,10 @@ from texvent_scenes.models.tables import nouns_with, trait_values
 from texvent_scenes.read.draft.motions import BLINK_HZ, add_motion
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.outcomes import EGO, can_arrive, claim_act, meet
-from texvent_scenes.read.parsing.lexicon import VerbSense, word_set
+from texvent_scenes.read.parsing.lexicon import VerbSense, list_forms, word_set
 from texvent_scenes.read.parsing.tokens import Token
 from texvent_scenes.read.relations import bear_on, lead_on, relate_one, ridden_by
 from texvent_scenes.spec.data import SENT, WAYS
-from texvent_scenes.words import list_verb_forms
 
 _KICKED = nouns_with("kicked or thrown")
 _SWITCHED = ("on", "off")
@@ -166,4 +165,4 @@ def _list_tools(activity: str) -> set[str]:
 def _list_performing() -> frozenset[str]:
     """Forms of verbs for an act that a person does anyway: "plays", of a violinist."""
     verbs = word_set("things", "performing")
-    return frozenset(form for verb in verbs for form, _ in list_verb_forms(verb))
+    return frozenset(form for verb in verbs for form, _ in list_forms(verb))

@@ -6,14 +6,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from texvent_scenes.models.tables import nouns_with, read_table
+from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.draft.abilities import MEANS
 from texvent_scenes.read.draft.motions import split_move, turn_by
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.draft.setting import names_place, set_scene
 from texvent_scenes.read.parsing.clauses import Clause
 from texvent_scenes.read.parsing.groups import Group, Phrase, heads_of, nouns_of
-from texvent_scenes.read.parsing.lexicon import Sense, lexicon_of, word_set
+from texvent_scenes.read.parsing.lexicon import Sense, lexicon_of, word_set, word_table
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
 from texvent_scenes.read.phrases import apply_phrase
 from texvent_scenes.read.prepositions import is_standpoint
@@ -175,7 +175,7 @@ def find_move(draft: SceneDraft, clause: Clause, *, is_ego: bool = False) -> dic
     draft.show(verb)
     moves = [one for one in moves if one.startswith("travel")] if is_ego else moves
     move = split_move(moves[0])
-    turned = read_table("words", "read")["turned_moves"]
+    turned = word_table("turned_moves")
     for one in clause.after:
         if isinstance(one, Phrase):
             move = _lead(move, one)

@@ -19,7 +19,7 @@ from texvent_scenes.read.draft.motions import add_motion, set_field
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.draft.setting import set_scene
 from texvent_scenes.read.parsing.groups import Group
-from texvent_scenes.read.parsing.lexicon import Sense, VerbSense, states, word_set
+from texvent_scenes.read.parsing.lexicon import Sense, VerbSense, word_set, word_table
 from texvent_scenes.read.parsing.tokens import Token
 from texvent_scenes.read.prepositions import set_before
 
@@ -102,15 +102,16 @@ def _claim_adverb(
     for motions in (draft.things[index]["motions"] for index in subjects):
         if motions and motions[-1]["kind"] in kinds:
             motions[-1]["kind"] = meant
-    said = ("ground", False) if field == "in_air" else (field, value)
-    draft.claim(token, *said, subjects)
+    if field == "in_air":
+        field, value = "ground", False
+    draft.claim(token, field, value, subjects)
 
 
 def _say_at_once(
     draft: SceneDraft, token: Token, field: str, value: Any, subjects: Sequence[int]
 ) -> bool:
     """Apply a state of what opens, or the speed of a view; a dark tunnel is not painted."""
-    state = states().get(token.text)
+    state = word_table("states").get(token.text)
     if field == "colour" and token.text in word_set("things", "shades"):
         lit = nouns_with("passage") | nouns_with("has a door") | LAMPS.keys()
         return any(draft.things[n]["noun"] in lit and not draft.can_go(n) for n in subjects)
@@ -148,7 +149,7 @@ def _blow(draft: SceneDraft, index: int) -> bool:
 
 def _set_state(draft: SceneDraft, token: Token, subjects: Sequence[int]) -> None:
     """Apply an adjective of what opens and closes: "an open door"."""
-    state = states()[token.text]
+    state = word_table("states")[token.text]
     able = [n for n in subjects if state in draft.noun(n).acts]
     for index in able:
         add_motion(draft.things[index], VerbSense(kind=state))

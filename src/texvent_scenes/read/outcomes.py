@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from texvent_scenes.models.activities import is_mutual
-from texvent_scenes.models.tables import read_table, trait_values
+from texvent_scenes.models.tables import trait_values
 from texvent_scenes.read.draft.scene_draft import SceneDraft
-from texvent_scenes.read.parsing.lexicon import VerbSense, word_set
+from texvent_scenes.read.parsing.lexicon import VerbSense, word_set, word_table
 from texvent_scenes.read.parsing.tokens import Token
 
 EGO = "ego"
@@ -46,7 +46,7 @@ def _claim_outcome(
     draft: SceneDraft, act: VerbSense, verb: Token, index: int, objects: Sequence[int]
 ) -> None:
     """Leave it to the staged scene whether an act has its outcome."""
-    outcomes = read_table("words", "read")["outcomes"]
+    outcomes = word_table("outcomes")
     if outcome := outcomes.get(act.who, {}).get(act.kind):
         draft.claim(verb, outcome, "", [index])
     is_machine = draft.things[index]["noun"] in trait_values("gripper")

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from texvent_scenes.models.effects import LAMPS
-from texvent_scenes.models.tables import nouns_with, read_table
+from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.draft.motions import BLINK_HZ
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.parsing.groups import Group, Phrase, words_of
-from texvent_scenes.read.parsing.lexicon import owned_parts, word_set
+from texvent_scenes.read.parsing.lexicon import word_set, word_table
 from texvent_scenes.read.parsing.tokens import Token
 
 
@@ -34,11 +34,11 @@ def are_own_parts(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) ->
 
 def _take_mark(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
     """Let things be those that have a mark, "a disc with a white dot"; "on a blade" it is there."""
-    marks = read_table("words", "read")["marks"]
+    marks = word_table("marks")
     words = words_of(phrase.groups[:1])
     nouns = draft.names(subjects)
     if phrase.preposition.text == "on":
-        bears = [read_table("words", "read")["bearers"].get(one.text, ()) for one in words]
+        bears = [word_table("bearers").get(one.text, ()) for one in words]
         is_there = bool(nouns) and any(nouns <= {*one} for one in bears)
         draft.show(*((phrase.preposition, *words) if is_there else ()))
         return is_there
@@ -65,7 +65,7 @@ def _take_mark(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bo
 def _are_built_in(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
     """Whether it names parts and patterns that are not drawn: "a bus with two doors"."""
     nouns = [one.noun.noun if one.noun else "" for one in phrase.groups]
-    is_own = any(word.text in owned_parts() for word in words_of(phrase.groups))
+    is_own = any(word.text in word_table("parts") for word in words_of(phrase.groups))
     flat, is_body = nouns_with("flat pattern"), not any(map(draft.walks, subjects))
     is_flat = any(draft.things[one]["noun"] in flat for one in subjects)
     inner = word_set("things", "built_in") | (frozenset() if is_flat else flat)  # "with stripes"
@@ -74,7 +74,7 @@ def _are_built_in(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) ->
 
 def say_parts(draft: SceneDraft, groups: Sequence[Group], subjects: Sequence[int]) -> bool:
     """Account for parts that things have, if all groups name some: "its second hand moving"."""
-    owned, words = owned_parts(), [one.words for one in groups]
+    owned, words = word_table("parts"), [one.words for one in groups]
     parts = [next((word.text for word in each if word.text in owned), "") for each in words]
     if not subjects or not parts or not all(parts):
         return False
@@ -109,7 +109,7 @@ def _say_of_part(draft: SceneDraft, word: Token, part: str, owners: Sequence[int
                 one |= {"is_lit": True, "blink_hz": BLINK_HZ}
                 one["motions"] = one["motions"] or [{"kind": "move", "direction": "towards"}]
     elif "colour" in fields:
-        painted = read_table("words", "read")["painted"].get(part, ())
+        painted = word_table("painted").get(part, ())
         for one in (draft.things[n] for n in owners):
             one |= {"colour": fields["colour"]} if one["noun"] in painted else {}
         draft.claim(word, "lit colour" if is_lamp else "colour", fields["colour"], owners)

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
-from texvent_scenes.models.tables import nouns_with, read_table, trait_value
+from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.read.draft.copies import (
     PLURAL_COUNT,
     add_like,
@@ -26,9 +26,8 @@ from texvent_scenes.read.parsing.lexicon import (
     Sense,
     VerbSense,
     deeds,
-    general_names,
-    owned_parts,
     word_set,
+    word_table,
 )
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
 from texvent_scenes.spec.scene import MAX_BODIES
@@ -150,7 +149,7 @@ def _name_thing(draft: SceneDraft, group: Group, head: Token) -> list[int]:
     noun, owners = group.noun, word_set("things", "owners")
     known = draft.find([noun.noun] if noun else ())
     known = known or (list_kinds(draft, head) if group.article == "the" else [])
-    if group.article in owners | {"the", ""} and draft.find(owned_parts().get(head.text, ())):
+    if group.article in owners | {"the", ""} and draft.find(word_table("parts").get(head.text, ())):
         draft.show(head)
         return []  # "a cyclist falls off his bike", "a car stops and the door opens"
     is_owned = group.article in owners or bool(draft.find(PERSON_NOUNS))
@@ -177,8 +176,9 @@ def _add_thing(draft: SceneDraft, group: Group, head: Token) -> int:
         name, activity = head.all("pose")[0].value
         index = draft.add(name, motions=[{"kind": activity}])
     else:
-        name, deed = noun.noun, deeds().get(head.text)
-        index = draft.add(name, word=head.text, **({"deed": deed} if deed else {}))
+        name = noun.noun
+        index = draft.add(name, word=head.text)
+        draft.things[index] |= {"deed": deed} if (deed := deeds().get(head.text)) else {}
         if noun.is_kind:
             draft.mark(head, name)
     if group.is_plural:
@@ -240,7 +240,7 @@ def _list_formed(group: Group, head: Token) -> Sequence[Group]:
 def _see_as_thing(head: Token) -> Token:
     """A word as the thing that has the effect which it names: "around a fire"."""
     effects = {one.value for one in head.all("effect")} if not head.has("noun") else set()
-    table = read_table("words", "read")["seen_as"]
+    table = word_table("seen_as")
     senses = [Sense("noun", NounSense(table[one])) for one in effects if one in table]
     return replace(head, senses=tuple(senses)) if senses else head
 
@@ -257,7 +257,7 @@ def find_whole_of(draft: SceneDraft, group: Group, known: int) -> list[int]:
 
 def list_kinds(draft: SceneDraft, head: Token) -> list[int]:
     """Things of a kind: "the bird" means the pigeon, "the robot" a delivery robot."""
-    kinds = general_names().get(head.text, ())
+    kinds = word_table("general").get(head.text, ())
     return [n for n, one in enumerate(draft.things)
             if one["noun"] in kinds or one.get("word", "").endswith(f" {head.text}")]  # fmt: skip
 

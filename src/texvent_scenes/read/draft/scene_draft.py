@@ -8,10 +8,10 @@ from typing import Any
 
 from texvent_scenes.description import Claim
 from texvent_scenes.models.protocol import Noun
-from texvent_scenes.models.tables import nouns_with, read_table
+from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.draft.abilities import Abilities
 from texvent_scenes.read.draft.motions import turn_by
-from texvent_scenes.read.parsing.lexicon import word_set
+from texvent_scenes.read.parsing.lexicon import word_set, word_table
 from texvent_scenes.read.parsing.tokens import Token, token_at
 from texvent_scenes.spec.data import PLACING
 
@@ -177,7 +177,7 @@ class SceneDraft(Abilities):
 
     def show_inherent(self, tokens: Sequence[Token], name: str) -> None:
         """Show modifiers of what is so anyway, "a round plate", and other names of a noun."""
-        true_of = read_table("words", "read")["inherent"]
+        true_of = word_table("inherent")
         self.show(*(one for one in tokens if name in true_of.get(one.text, ())))
         for token in tokens:
             same = [one.value for one in token.all("noun") if one.value.noun == name]

@@ -7,11 +7,10 @@ from typing import Any
 
 from texvent_scenes.description import SEEN
 from texvent_scenes.models.places import is_room
-from texvent_scenes.models.tables import read_table
 from texvent_scenes.read.draft.motions import split_move
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.parsing.groups import Group
-from texvent_scenes.read.parsing.lexicon import word_set
+from texvent_scenes.read.parsing.lexicon import word_set, word_table
 from texvent_scenes.read.parsing.tokens import Token
 
 
@@ -103,7 +102,7 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
 
 def _fill_place(draft: SceneDraft, token: Token, place: str) -> None:
     """Add those of whom a place is full: "a busy street"."""
-    full = read_table("words", "read")["brings"]
+    full = word_table("brings")
     brought = full.get(f"{token.text} {place}") or full.get(token.text, {})
     for noun, count in brought.items():
         draft.show(token)

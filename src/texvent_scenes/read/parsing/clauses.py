@@ -14,7 +14,7 @@ from texvent_scenes.read.parsing.groups import (
     heads_of,
     nouns_of,
 )
-from texvent_scenes.read.parsing.lexicon import owned_parts, word_set
+from texvent_scenes.read.parsing.lexicon import word_set, word_table
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
 
 _IS = ("is", "are", "was", "were")
@@ -131,7 +131,7 @@ class _Parser(GroupReader):
         if clause.verb is not None and token.verbs("ing") and not after.has("noun"):
             return Clause(about="meanwhile")  # "sits, reading"
         owners, own = word_set("things", "owners"), {after.text, self._token(2).text}
-        if token.text in owners and own & owned_parts().keys():
+        if token.text in owners and own & word_table("parts").keys():
             return Clause()  # "a fan, its blades spinning"
         is_list = clause.subjects and not (clause.verb or clause.after)
         goes_on = self._starts_group() and not token.has("scene", "shot")

@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from texvent_scenes.models.nouns import NOUNS
-from texvent_scenes.models.tables import read_table
-from texvent_scenes.read.parsing.lexicon import NounSense, owned_parts, states, word_set
+from texvent_scenes.read.parsing.lexicon import NounSense, word_set, word_table
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token, token_at
 
 _HEADS = ("noun", "place", "effect", "pose", "scene")
@@ -22,7 +21,7 @@ _PREPOSITIONS = ("at ", "in ", "by ", "with ", "without ", "during ")
 
 def ordinals() -> dict[str, int]:
     """Words of one of several → the number up to it: "third"."""
-    return dict(read_table("words", "read")["ordinals"])
+    return dict(word_table("ordinals"))
 
 
 def _counts(token: Token) -> list[float]:
@@ -104,7 +103,7 @@ class Group:
     def is_plural(self) -> bool:
         """Whether it names several things: "two dogs", "fish"."""
         counts = [count for one in self.modifiers for count in _counts(one)]
-        parts = [one.text for one in self.unknown if one.text in owned_parts()]
+        parts = [one.text for one in self.unknown if one.text in word_table("parts")]
         if counts or self.head is None:
             is_many = any(count > 1 for count in (*counts, self.count)) or self.picks == "others"
             return is_many or any(one.endswith("s") for one in parts)
@@ -177,7 +176,7 @@ class GroupReader:
         if token.has("partitive"):
             return self._starts_group(ahead + 1)
         is_before = token.has(*MODIFIERS) or bool(token.verbs("ing", "ed"))
-        is_part = after.text in owned_parts()
+        is_part = after.text in word_table("parts")
         is_noun = is_part or after.has("noun", "place", *MODIFIERS)
         if is_before and is_noun and not after.has("relation"):
             return True
@@ -193,7 +192,7 @@ class GroupReader:
         first = self._at
         while head is None and not self._ends_group(first) and self._agrees(article, first):
             token = self._take()
-            if token.is_unknown and token.text not in states():
+            if token.is_unknown and token.text not in word_table("states"):
                 unknown.append(token)
                 if article in ("a", "an"):  # "a six axis arm" is one
                     modifiers = [one for one in modifiers if not _counts(one)]
@@ -253,7 +252,7 @@ class GroupReader:
         is_many = before.text.endswith("s") or not self._token(1).has(*_HEADS)
         if before.is_unknown and is_many and token.text.endswith("ing"):
             return self._at > first  # "travellers pulling", "a white line spinning at 3 Hz"
-        is_state = token.text in states() and self._at == first
+        is_state = token.text in word_table("states") and self._at == first
         is_led = before.has("articles") and self._token(1).has("noun")  # "a face shield"
         is_state |= is_led and bool(token.verbs("base"))
         is_word = token.is_unknown or token.has("picture") or is_state

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import product
@@ -26,36 +26,28 @@ from texvent_scenes.models.tables import read_table
 from texvent_scenes.words import list_plurals, list_verb_forms
 
 
+def word_table(name: str) -> Any:
+    """A table of words.toml."""
+    return read_table("words", "read")[name]
+
+
 @cache
 def word_set(table: str, key: str) -> frozenset[str]:
     """Words of an entry of words.toml."""
-    return frozenset(read_table("words", "read")[table][key])
+    return frozenset(word_table(table)[key])
 
 
-def owned_parts() -> Mapping[str, Mapping[str, int]]:
-    """Words of parts that are no things by themselves → nouns that have them, and how many."""
-    parts: Mapping[str, Mapping[str, int]] = read_table("words", "read")["parts"]
-    return parts
-
-
-@cache
-def general_names() -> Mapping[str, Sequence[str]]:
-    """Words for things that were named more closely before → their nouns: "the bird"."""
-    found: Mapping[str, Sequence[str]] = read_table("words", "read")["general"]
-    return found
-
-
-@cache
-def states() -> Mapping[str, str]:
-    """Adjectives of what opens and closes → what it does then: "an open door"."""
-    found: Mapping[str, str] = read_table("words", "read")["states"]
-    return found
+def list_forms(phrase: str) -> list[tuple[str, str]]:
+    """Forms of a phrase that begins with a verb, and the name of each: "walks in"."""
+    base, _, rest = phrase.partition(" ")
+    forms = list_verb_forms(base, word_table("irregular").get(base, ""))
+    return [(f"{word} {rest}".strip(), form) for word, form in forms]
 
 
 @cache
 def deeds() -> Mapping[str, str]:
     """Words of who does something → what that is: "pianists"."""
-    said = read_table("words", "read")["deeds"].items()
+    said = word_table("deeds").items()
     return {
         form: deed for deed, words in said for word in words for form in (word, *list_plurals(word))
     }
@@ -163,7 +155,7 @@ def _list_nouns(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
             yield plural, Sense("noun", replace(one, is_plural=True))
     for name, sense in plurals.items():
         yield name, Sense("noun", sense)
-    for name, members in read_table("words", "read")["groups"].items():
+    for name, members in word_table("groups").items():
         if all(one in nouns for one in members):
             whole = NounSense(next(iter(members)), members=tuple(members.items()))
             yield name, Sense("noun", whole)
@@ -172,19 +164,16 @@ def _list_nouns(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
 def _list_verbs() -> Iterator[tuple[str, Sense]]:
     """Verbs; what only persons, hands or animals can do goes before what anything can."""
     for phrase, sense in (*_list_activities(), *_list_plain_verbs()):
-        base, _, rest = phrase.replace("-", " ").partition(" ")
-        written = read_table("words", "read")["irregular"].get(base, "")
-        for word, form in list_verb_forms(base, written):
-            yield f"{word} {rest}".strip(), Sense("verb", sense, form)
+        for words, form in list_forms(phrase.replace("-", " ")):
+            yield words, Sense("verb", sense, form)
 
 
 def _list_plain_verbs() -> Iterator[tuple[str, VerbSense]]:
-    words = read_table("words", "read")
-    for who, kinds in words["doing"].items():
+    for who, kinds in word_table("doing").items():
         for verb, kind in ((verb, kind) for kind, verbs in kinds.items() for verb in verbs):
             base, _, pace = verb.partition("*")
             yield base, VerbSense(who, kind, float(pace or 1))
-    for phrase, said in words["verbs"].items():
+    for phrase, said in word_table("verbs").items():
         senses = said if isinstance(said, list) else [said]
         yield from ((base, VerbSense(**one)) for base, one in product(_expand(phrase), senses))
 
@@ -232,9 +221,8 @@ def _list_passives(activity: Activity) -> Iterator[str]:
     for phrase in activity.words:
         verb, _, rest = phrase.partition(" ")
         what = " ".join(one for one in rest.split() if one not in word_set("senses", "articles"))
-        written = read_table("words", "read")["irregular"].get(verb, "")
         if what and not any(one in _PARTICLES for one in what.split()):
-            yield from (f"{what} being {word}" for word, form in list_verb_forms(verb, written)
+            yield from (f"{what} being {word}" for word, form in list_forms(verb)
                         if form == "ed")  # fmt: skip
 
 
@@ -247,22 +235,23 @@ _PARTICLES = frozenset(
 
 def _list_words() -> Iterator[tuple[str, Sense]]:
     """Words of places, and those of words.toml: the path to a list of phrases is their sense."""
-    words = read_table("words", "read")
     for place, one in PLACES.items():
         for name in one.names:
             yield from _with_plurals(name, Sense("place", place))
-    moves = ((move, verb) for move, verbs in words["doing"]["camera"].items() for verb in verbs)
+    moves = (
+        (move, verb) for move, verbs in word_table("doing")["camera"].items() for verb in verbs
+    )
     for move, verb in moves:  # "a rotating camera"
         yield f"{list_verb_forms(verb)[2][0]} camera", Sense("shot", move)
     yield from ((name, Sense("field", ("colour", name))) for name in SURFACES)
-    for count, phrases in words["senses"]["field"]["count"].items():
+    for count, phrases in word_table("senses")["field"]["count"].items():
         times = Sense("adverb", ("times", float(count)))
         yield from ((f"{one} times", times) for one in phrases if " " not in one)
-    for field, units in words["units"].items():
+    for field, units in word_table("units").items():
         yield from ((unit, Sense("unit", (field, each))) for unit, each in units.items())
-    for path, phrases in _walk(words["senses"]):
+    for path, phrases in _walk(word_table("senses")):
         yield from ((phrase, _sense_of(*path)) for phrase in phrases)
-    for row in words["acting"]:
+    for row in word_table("acting"):
         yield from ((phrase, _sense_of(*row["sense"])) for phrase in _list_acting(row))
 
 
@@ -270,13 +259,14 @@ def _list_acting(row: Mapping[str, Any]) -> Iterator[str]:
     """Phrases of weather and effects with their verbs: "falling snow", "snow is drifting down"."""
     yield from row.get("alone", ())
     for noun, phrase in product(row["nouns"], row["verbs"]):
-        verb, _, rest = phrase.partition(" ")
-        written = read_table("words", "read")["irregular"].get(verb, "")
-        for word, form in list_verb_forms(verb, written):
-            said = f"{noun} {{}}{word} {rest}".strip()
-            yield said.format("")
+        for words, form in list_forms(phrase):
+            yield f"{noun} {words}"
             if form == "ing":
-                yield from (f"{word} {noun}", said.format("is "), said.format("are "))
+                yield from (
+                    f"{words.split()[0]} {noun}",
+                    f"{noun} is {words}",
+                    f"{noun} are {words}",
+                )
 
 
 def _walk(table: Mapping[str, Any], path: tuple[str, ...] = ()) -> Iterator[tuple[Any, list[str]]]:

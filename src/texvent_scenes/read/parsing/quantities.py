@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any, TypeAlias
 
-from texvent_scenes.models.tables import read_table
+from texvent_scenes.read.parsing.lexicon import word_table
 
 Found: TypeAlias = tuple[int, tuple[tuple[str, Any], ...]]
 """Number of words that a quantity takes, and the kinds and values of its senses."""
@@ -30,14 +30,13 @@ _SIGNS = str.maketrans("−⁄", "-/")
 
 def _lengths() -> Mapping[str, float]:
     """Units of lengths → m."""
-    found: Mapping[str, float] = read_table("words", "read")["said_after"]["from"]["units"]
+    found: Mapping[str, float] = word_table("said_after")["from"]["units"]
     return found
 
 
 def list_figures(words: Sequence[str], lexicon: Units) -> list[str]:
     """The words, with figures for the numbers before units: "2 metres", "50 hertz"."""
-    table = read_table("words", "read")
-    lengths = {one for each in table["said_after"].values() for one in each["units"]}
+    lengths = {one for each in word_table("said_after").values() for one in each["units"]}
     low, found = [one.casefold() for one in words], list(words)
     for at, word in enumerate(low[:-1]):
         units = [tuple(low[at + 1 : at + 1 + length]) for length in (1, 2, 3)]
@@ -45,7 +44,7 @@ def list_figures(words: Sequence[str], lexicon: Units) -> list[str]:
             sense.kind == "unit" for one in units for sense in lexicon.get(one, ())
         )
         fields = [one.value for one in lexicon.get((word,), ()) if one.kind == "field"]
-        counts = [table["tens"].get(word), *(one[1] for one in fields if one[0] == "count")]
+        counts = [word_table("tens").get(word), *(one[1] for one in fields if one[0] == "count")]
         figure = next(filter(None, counts), None) if is_unit else None
         found[at] = words[at] if figure is None else f"{figure:g}"
     return found
@@ -76,7 +75,7 @@ def read_height(words: Sequence[str], at: int) -> Found | None:
 def read_stated(words: Sequence[str], at: int) -> Found | None:
     """A start or a height: "after 2 seconds", "from 1 m", "at a height of 1 metre"."""
     first, *rest = [one.casefold() for one in words[at : at + 6]]
-    how = read_table("words", "read")["said_after"].get(first, {"units": {}})
+    how = word_table("said_after").get(first, {"units": {}})
     skipped = 3 if rest[1:2] and rest[1] in _HEIGHTS and rest[2:3] == ["of"] else 0
     number, unit, after = (*rest[skipped : skipped + 3], "", "", "")[:3]
     is_behind = not skipped and after in _HEIGHTS  # "at 2 m altitude"

@@ -13,7 +13,7 @@ from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, read_table, trait_value
 from texvent_scenes.read.parsing.groups import is_plural_form
-from texvent_scenes.read.parsing.lexicon import NounSense, Sense, word_set
+from texvent_scenes.read.parsing.lexicon import NounSense, Sense, word_set, word_table
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token, token_at
 from texvent_scenes.words import list_plurals
 
@@ -74,7 +74,7 @@ def _see_as_young(token: Token, tokens: Sequence[Token]) -> Token:
 def _is_state(token: Token, tokens: Sequence[Token]) -> bool:
     """Whether a participle says how the noun after it is anyway: "fallen leaves"."""
     after = token_at(tokens, token.at + 1)
-    true_of = read_table("words", "read")["inherent"].get(token.text, ())
+    true_of = word_table("inherent").get(token.text, ())
     return token.has("verb") and bool(after.nouns & {*true_of})
 
 
@@ -143,7 +143,7 @@ def _see_as_part(token: Token, before: Token, nouns: Mapping[str, Noun]) -> Toke
 
 def _see_beside(token: Token, tokens: Sequence[Token]) -> Token:
     """The token, with the noun that it means beside some others: the platform of a train."""
-    senses, table = [one.value for one in token.all("noun")], read_table("words", "read")["beside"]
+    senses, table = [one.value for one in token.all("noun")], word_table("beside")
     singular = token.text if senses and not senses[0].is_plural else ""
     rows = table.get(singular) or table.get(senses[0].noun if senses else token.text, ())
     others = {noun for one in tokens for noun in one.nouns}
@@ -160,7 +160,7 @@ def _see_beside(token: Token, tokens: Sequence[Token]) -> Token:
 
 def _relate(token: Token, tokens: Sequence[Token]) -> Token:
     """The token as the preposition that it is before a noun group: "round a fire"."""
-    like = read_table("words", "read")["like"]
+    like = word_table("like")
     before, following = (token_at(tokens, token.at + step) for step in (-1, 1))
     if token.text not in like or before.has("articles") or not following.has("articles"):
         return token

@@ -13,15 +13,15 @@ from texvent_scenes.models.activities import ACTIVITIES, TIMED
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.people.outfit import list_props
-from texvent_scenes.models.tables import read_table
 from texvent_scenes.read.parsing.lexicon import (
     LONGEST_PHRASE,
     Lexicon,
     Sense,
     Senses,
     VerbSense,
-    owned_parts,
+    list_forms,
     word_set,
+    word_table,
 )
 from texvent_scenes.read.parsing.quantities import (
     Found,
@@ -30,7 +30,7 @@ from texvent_scenes.read.parsing.quantities import (
     read_quantity,
     read_stated,
 )
-from texvent_scenes.words import find_literals, list_verb_forms
+from texvent_scenes.words import find_literals
 
 _NEAR = 4
 """Words after a light verb among which what is done is named."""
@@ -154,9 +154,7 @@ def split_prompt(prompt: str, lexicon: Lexicon) -> tuple[Token, ...]:
 @cache
 def _light_verbs() -> Mapping[str, str]:
     """Forms of verbs that say nothing before a noun of what is done → the names of the forms."""
-    words = read_table("words", "read")
-    verbs = ((one, words["irregular"].get(one, "")) for one in words["light"]["verbs"])
-    return {word: form for one in verbs for word, form in list_verb_forms(*one)}
+    return {word: form for one in word_table("light")["verbs"] for word, form in list_forms(one)}
 
 
 def _join_verbs(tokens: Sequence[Token], lexicon: Lexicon) -> list[Token]:
@@ -190,7 +188,7 @@ def _join_verbs(tokens: Sequence[Token], lexicon: Lexicon) -> list[Token]:
 def _list_acts(token: Token, done: Token, lexicon: Lexicon) -> Senses:
     """Senses of a verb with what is done a few words later, of "take" with "turn"."""
     if form := _light_verbs().get(token.text):
-        nouns = read_table("words", "read")["light"]["nouns"]
+        nouns = word_table("light")["nouns"]
         said = lexicon.get(tuple(nouns.get(done.text, done.text).split()), ())
         acts = [VerbSense(*one.value) for one in said if one.kind == "pose"]
         acts += [one.value for one in said if one.kind == "verb" and one.form == "base"]
@@ -206,15 +204,15 @@ def _owned() -> tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str
 
     As in "a car's headlights", "the blades of a fan", "a fan blade", "a four-blade fan".
     """
-    parts, opened = "|".join(owned_parts()), "|".join(sorted(word_set("things", "leaves")))
+    owned = word_table("parts")
+    parts, opened = "|".join(owned), "|".join(sorted(word_set("things", "leaves")))
     bare = "|".join(
-        rf"(?:{_list_names(owned_parts()[one])}) {one}"
-        for one in sorted(word_set("things", "bare_parts"))
+        rf"(?:{_list_names(owned[one])}) {one}" for one in sorted(word_set("things", "bare_parts"))
     )
-    counts = read_table("words", "read")["senses"]["field"]["count"].values()
+    counts = word_table("senses")["field"]["count"].values()
     numbers = "|".join(one for each in counts for one in each if " " not in one)
-    many = "|".join(one[:-1] for one in owned_parts() if one.endswith("s"))
-    owners = _list_names(noun for one in owned_parts().values() for noun in one)
+    many = "|".join(one[:-1] for one in owned if one.endswith("s"))
+    owners = _list_names(noun for one in owned.values() for noun in one)
     openers = _list_names(one.name for one in NOUNS.values() if one.acts & TIMED)
     of = r"of ((?:an?|the|his|her) (?:(?!(?:and|of|on|in|with|to)\b)\w+ ){0,2}?)?"
     rows = (
@@ -245,7 +243,7 @@ def _name_owners(text: str) -> str:
 @cache
 def _part_words() -> frozenset[str]:
     """Words of parts, of several the last."""
-    parts = [one.split()[-1] for one in (*owned_parts(), *word_set("things", "leaves"))]
+    parts = [one.split()[-1] for one in (*word_table("parts"), *word_set("things", "leaves"))]
     return frozenset((*parts, *(one.removesuffix("s") for one in parts)))
 
 
