@@ -94,6 +94,7 @@ def test_native_imu_and_poses_are_rows_of_their_formats(native):
     assert np.linalg.norm(right[0, 1:4] - truth[0, 1:4]) == pytest.approx(0.1, abs=1e-8)
 
 
+@pytest.mark.long
 def test_only_a_recording_is_replaced(native, tmp_path):
     small = {**OPTIONS, "frames": None, "exposure": 0.0, "stereo": None, "duration": 0.1}
     out = rig.record(PROMPT, tmp_path / "one", **small)
