@@ -161,7 +161,7 @@ def find_unseen(
     violations += find_near(scene, description, cameras, times)
     violations += find_misframed(scene, description, cameras, times, size)
     notes += [*list_hidden(scene, seen, cameras, times, size)]
-    notes += list_covering(scene, description, seen, _count_points(size), times)
+    notes += list_covering(scene, description, seen, _count_points(size), times, unseen)
     notes += () if description.camera.is_moving else list_departures(scene, cameras, times, size)
     return Unseen(
         tuple(dict.fromkeys(outside)), tuple(dict.fromkeys(small)),
