@@ -355,7 +355,8 @@ def count_pixels(
 def _grid_of(size: SensorSize) -> tuple[int, tuple[Float64Array, Float64Array]]:
     """Step of the grid of points, pixels, and its x and y."""
     step = max(1, math.ceil(math.sqrt(size.width * size.height / MOST_POINTS)))
-    x, y = (np.arange(step // 2, side, step) + 0.5 for side in (size.width, size.height))
+    x, y = (np.arange(step // 2, side, step, dtype=np.float64) + 0.5
+            for side in (size.width, size.height))  # fmt: skip
     return step, (x, y)
 
 
