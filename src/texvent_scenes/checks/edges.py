@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -19,7 +19,7 @@ _INSIDE, _OFTEN = 0.5, 0.4
 _MERGED, _FEWEST = 0.75, 6
 """Share of the smaller of two boxes in the image from which on they look like one; copies up to
 which one counts them."""
-_COVERS = 0.2
+_COVERS = 0.12
 """Share of the image from which on something before the subject covers much of it."""
 
 
@@ -69,8 +69,9 @@ def list_covering(
     seen: Mapping[int, Sequence[int]],
     points: int,
     times: Sequence[float],
+    lost: Container[int] = (),
 ) -> Iterator[str]:
-    """Sentences on bodies before the subject that cover much of the image.
+    """Sentences on bodies before the subject, or reported as lost, that cover much of the image.
 
     Args:
         scene: the staged scene.
@@ -78,6 +79,7 @@ def list_covering(
         seen: instance id → points of the grid that show it at each instant.
         points: of the grid.
         times: instants, s.
+        lost: indices of objects of which too few copies are seen.
     """
     if not scene.actors:
         return
@@ -92,7 +94,7 @@ def list_covering(
         depths = [[(each.middle(at) - camera.position) @ camera.rotation[2] for each in (one, main)]
                   for at, camera in instants]  # fmt: skip
         is_before = np.mean([near < far for near, far in depths]) >= _OFTEN
-        if is_before and float(np.median(shares)) >= _COVERS:
+        if (is_before or one.object_index in lost) and float(np.median(shares)) >= _COVERS:
             share = f"{100.0 * float(np.median(shares)):.0f} %"
             yield f"the {one.noun.name} covers {share} of the picture"
 

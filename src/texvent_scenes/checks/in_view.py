@@ -161,7 +161,7 @@ def find_unseen(
     violations += find_near(scene, description, cameras, times)
     violations += find_misframed(scene, description, cameras, times, size)
     notes += [*list_hidden(scene, seen, cameras, times, size)]
-    notes += list_covering(scene, description, seen, _count_points(size), times)
+    notes += list_covering(scene, description, seen, _count_points(size), times, unseen)
     notes += () if description.camera.is_moving else list_departures(scene, cameras, times, size)
     return Unseen(
         tuple(dict.fromkeys(outside)), tuple(dict.fromkeys(small)),
@@ -355,7 +355,8 @@ def count_pixels(
 def _grid_of(size: SensorSize) -> tuple[int, tuple[Float64Array, Float64Array]]:
     """Step of the grid of points, pixels, and its x and y."""
     step = max(1, math.ceil(math.sqrt(size.width * size.height / MOST_POINTS)))
-    x, y = (np.arange(step // 2, side, step) + 0.5 for side in (size.width, size.height))
+    x, y = (np.arange(step // 2, side, step, dtype=np.float64) + 0.5
+            for side in (size.width, size.height))  # fmt: skip
     return step, (x, y)
 
 

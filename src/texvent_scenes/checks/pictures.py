@@ -130,10 +130,9 @@ def find_unshown(
     yield from _find_unturned(scene, description, times)
     is_said = not any(one.startswith(NO_PLACE) for one in description.notes)
     other = replace(scene, still=assemble([]))
-    least = _LEAST_TELLING if place.is_room else _LEAST_SCENERY
-    is_bare = is_said and not drawn.differ(other, least=least)
+    is_bare = is_said and not drawn.differ(other, least=_LEAST_SCENERY)
     if is_said and place.is_room and not _is_told(scene, said.name or "", times):
-        is_bare = not drawn.differ(other, least=_FULL)
+        is_bare = is_bare or not drawn.differ(other, least=_FULL)
     is_emptied = said.is_empty and place.is_cleared
     if is_bare and place.scenery and not is_emptied and _is_shared(scene, times):
         bare = "bare walls and the floor are" if place.is_room else "the ground is"

@@ -44,7 +44,8 @@ from texvent_scenes.staging.surroundings.environment import (
 )
 from texvent_scenes.staging.surroundings.lamps import LampPlan, plan_lamps
 from texvent_scenes.staging.surroundings.lighting import choose_lighting
-from texvent_scenes.staging.surroundings.scenery import SceneryItem, ViewClearance, scatter
+from texvent_scenes.staging.surroundings.pieces import SceneryItem, ViewClearance
+from texvent_scenes.staging.surroundings.scenery import scatter
 
 VIEW_INSTANTS = 7
 """Instants of the clip at which scenery must not hide anything."""

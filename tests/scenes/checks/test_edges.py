@@ -54,7 +54,7 @@ def test_copies_of_which_one_stands_before_the_other_are_counted_as_they_are_see
     assert [*find_merged(merged, said, cameras, TIMES_S, SIZE)] == [(0, 1)]
 
 
-@pytest.mark.parametrize(("points", "is_told"), [(100, False), (300, True)])
+@pytest.mark.parametrize(("points", "is_told"), [(60, False), (300, True)])
 def test_what_stands_before_the_subject_and_takes_much_of_the_image_is_told(points, is_told):
     said, scene = staged("a cat and a wardrobe")
     camera = scene.camera(0.0)

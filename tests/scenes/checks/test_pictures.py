@@ -20,6 +20,8 @@ TIMES_S = [0.2 * DURATION_S, 0.8 * DURATION_S]
 ROOMS = [name for name, one in PLACES.items() if one.is_room and one.scenery]
 TELLING = ("indoor", "corridor", "cave", "throne room")
 """Rooms that bare walls tell."""
+SMALL = ("bowling alley",)
+"""Rooms of which one sees too little behind a person: pins."""
 
 
 def staged(text):
@@ -35,12 +37,12 @@ def lost(said, scene):
 def test_a_room_is_shown_with_its_furniture_and_not_by_bare_walls(room):
     said, scene = staged(f"a man stands in a {PLACES[room].names[0]}")
     assert said.place.name == room
-    assert "place" not in lost(said, scene)
+    assert ("place" in lost(said, scene)) == (room in SMALL)
     if room not in TELLING:
         assert "place" in lost(said, replace(scene, still=assemble([]), scenery=()))
 
 
-BARE = ("bedroom", "factory")
+BARE = ("bedroom", "factory", *SMALL)
 """Rooms whose furniture is too large for a picture of a cat: the report says so."""
 
 

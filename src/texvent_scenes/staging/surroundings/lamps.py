@@ -27,7 +27,7 @@ from texvent_scenes.staging.surroundings.lighting import (
     point_lamp,
     wave_level,
 )
-from texvent_scenes.staging.surroundings.scenery import SceneryItem
+from texvent_scenes.staging.surroundings.pieces import SceneryItem
 
 MAINS_HZ = 20.0
 """From this frequency on, lamps on mains beat as a sine instead of going on and off."""
