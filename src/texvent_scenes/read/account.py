@@ -244,8 +244,7 @@ def _limit_counts(draft: SceneDraft) -> None:
     said = [int(one["count"]) for one in draft.things]
     while sum(one["count"] for one in draft.things) > MAX_BODIES:
         max(draft.things, key=lambda one: int(one["count"]))["count"] -= 1
-    fewer = {n: one["count"] for n, one in zip(said, draft.things, strict=True)
-             if one["count"] < n}  # fmt: skip
+    fewer = {n: one["count"] for n, one in zip(said, draft.things, strict=True) if one["count"] < n}
     for token in filter(draft.shows, draft.tokens):
         number = token.text.replace(",", "")
         for each in (one.value for one in token.all("field") if one.value[0] == "count"):
@@ -274,15 +273,12 @@ def _give_each(draft: SceneDraft) -> None:
 
     So do two who hold umbrellas or ride bicycles have one each, of which no number is said.
     """
-    plural = {n for n, one in enumerate(draft.things) if one.pop("is_open", False)}
-    people: dict[int, int] = dict.fromkeys(plural, 0)
-    for one in (each for each in draft.things if each["noun"] in PERSON_NOUNS):
-        had = (n for each in one["relations"] if each["kind"] in word_set("things", "each_has")
-               for n in each["to"])  # fmt: skip
-        for target in plural & {*had}:
-            people[target] += int(one["count"])
-    for target in (one for one in plural if people[one] > 1):
-        draft.things[target]["count"] = people[target]
+    each, things = word_set("things", "each_has"), draft.things
+    had = [(things[n]["count"], draft.targets([n], each)) for n in draft.find(PERSON_NOUNS)]
+    for index, one in enumerate(things):
+        people = sum(count for count, targets in had if index in targets)
+        if one.pop("is_open", False) and people > 1:
+            one["count"] = people
 
 
 def _build(draft: SceneDraft, prompt: str) -> Scene:

@@ -6,32 +6,38 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache
 
-from texvent_scenes.models.activities import ANIMAL_ACTIVITIES, DONE_SEATED, HAND_NOUNS, TIMED
+from texvent_scenes.models.activities import (
+    ANIMAL_ACTIVITIES,
+    DONE_SEATED,
+    HAND_NOUNS,
+    TIMED,
+    is_mutual,
+)
 from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.tables import nouns_with, trait_values
-from texvent_scenes.read.draft.motions import BLINK_HZ, add_motion
-from texvent_scenes.read.draft.scene_draft import SceneDraft
-from texvent_scenes.read.outcomes import EGO, can_arrive, claim_act, meet
-from texvent_scenes.read.parsing.lexicon import VerbSense, list_forms, word_set
+from texvent_scenes.read.draft.abilities import Indices
+from texvent_scenes.read.draft.scene_draft import BLINK_HZ, SceneDraft, add_motion
+from texvent_scenes.read.parsing.lexicon import VerbSense, list_forms, word_set, word_table
 from texvent_scenes.read.parsing.tokens import Token
 from texvent_scenes.read.relations import bear_on, lead_on, relate_one, ridden_by
 from texvent_scenes.spec.data import SENT, WAYS
 
 _KICKED = nouns_with("kicked or thrown")
 _SWITCHED = ("on", "off")
+EGO = "ego"
+"""Needs of an act that is done to the vehicle of the camera."""
+_SLOWER = 0.45
+"""Speed of a camera that is overtaken, as a share of what overtakes it."""
+_ROAD_M_S = 9.0
+"""Speed from which on what overtakes a camera needs none that is slower than usual, m/s."""
 
 
 def perform(
-    draft: SceneDraft,
-    verb: Token,
-    subjects: Sequence[int],
-    objects: Sequence[int],
-    *,
-    has_object: bool,
+    draft: SceneDraft, verb: Token, subjects: Indices, objects: Indices, has_object: bool
 ) -> list[int] | None:
     """Apply the first sense that the subjects can do; who moves, or None: there is none."""
     has_object = has_object or bool(objects)
-    act = _choose_act(draft, verb, subjects, objects, has_object=has_object)
+    act = _choose_act(draft, verb, subjects, objects, has_object)
     if act is None or (has_object and not objects and act.who in ("plain", "body")):
         return None  # what it is done to is not known
     draft.show(verb)
@@ -56,9 +62,7 @@ def perform(
     return list(objects if act.object and objects else subjects)
 
 
-def _relate_act(
-    draft: SceneDraft, kind: str, verb: Token, index: int, objects: Sequence[int]
-) -> None:
+def _relate_act(draft: SceneDraft, kind: str, verb: Token, index: int, objects: Indices) -> None:
     """Relate who acts to what the act is about, on a way that the staged scene holds."""
     who = ridden_by(draft, index, kind)
     about = draft.names(objects)
@@ -82,25 +86,23 @@ def _switch(draft: SceneDraft, state: str, index: int) -> None:
 
 
 def _choose_act(
-    draft: SceneDraft,
-    verb: Token,
-    subjects: Sequence[int],
-    objects: Sequence[int],
-    *,
-    has_object: bool,
+    draft: SceneDraft, verb: Token, subjects: Indices, objects: Indices, has_object: bool
 ) -> VerbSense | None:
     """The first sense of a verb that the subjects can do."""
     acts = [one.value for one in verb.all("verb") if subjects]
     if verb.text in _list_performing():
         done = {draft.things[one].get("deed", "") for one in subjects} - {""}
         acts[:0] = [VerbSense("person", one) for one in done]
+    tools = [one for one in acts if one.who == "person" and _list_tools(one.kind)]
+    if act := _act_as_person(draft, tools, subjects, objects, has_object):
+        return act  # "a broom sweeping": it does not go
     act = next((one for one in acts if draft.fits(one, subjects, objects, has_object)), None)
-    act = act or _act_as_person(draft, acts, subjects, objects, has_object=has_object)
+    act = act or _act_as_person(draft, acts, subjects, objects, has_object)
     is_sent = act is None and not has_object and _are_sent(draft, verb, subjects)
     return VerbSense(kind="throw") if is_sent else act
 
 
-def _are_sent(draft: SceneDraft, verb: Token, subjects: Sequence[int]) -> bool:
+def _are_sent(draft: SceneDraft, verb: Token, subjects: Indices) -> bool:
     """Whether balls are struck by who is not said: "a shuttlecock smashed at the camera"."""
     is_struck = any(one.value.relation in SENT for one in verb.verbs("ed"))
     nouns = draft.names(subjects)
@@ -108,8 +110,8 @@ def _are_sent(draft: SceneDraft, verb: Token, subjects: Sequence[int]) -> bool:
 
 
 def _act_as_person(
-    draft: SceneDraft, acts: Sequence[VerbSense], subjects: Sequence[int],
-    objects: Sequence[int], *, has_object: bool,
+    draft: SceneDraft, acts: Sequence[VerbSense], subjects: Indices,
+    objects: Indices, has_object: bool,
 ) -> VerbSense | None:  # fmt: skip
     """An act of people that hands or their tools do: "hands typing", "a pen writing"."""
     things = [draft.things[one] for one in subjects]
@@ -166,3 +168,74 @@ def _list_performing() -> frozenset[str]:
     """Forms of verbs for an act that a person does anyway: "plays", of a violinist."""
     verbs = word_set("things", "performing")
     return frozenset(form for verb in verbs for form, _ in list_forms(verb))
+
+
+def claim_act(draft: SceneDraft, act: VerbSense, verb: Token, index: int, objects: Indices) -> None:
+    """Leave it to the staged scene whether an object does it."""
+    _claim_outcome(draft, act, verb, index, objects)
+    if act.brings == EGO:
+        _overtake_ego(draft, verb, index)
+    if act.kind == "swim":
+        draft.claim(verb, "descend", "", [index] if act.direction == "down" else [])
+    elif verb.text in word_set("things", "landing"):
+        draft.claim(verb, "land", "", [index])
+    elif act.kind == "spin" and act.end_pace is not None:
+        draft.claim(verb, "pace", "", [index])
+    elif act.end_pace == 0.0 and act.kind == "move" and not draft.spins(index):
+        draft.claim(verb, "stop", "", [index])
+    if act.who == "lamp" and draft.things[index]["noun"] not in word_set("things", "flames"):
+        draft.claim(verb, "shine", "", [index])
+    if act.who in ("person", "hand", "animal") or act.kind == "lie":
+        is_body = act.who != "plain" or draft.walks(index)
+        draft.claim(verb, "activity" if is_body else "lie", act.kind, [index])
+    elif verb.text in word_set("things", "hung"):
+        draft.claim(verb, "ground", False, [index])
+    elif act.kind in ("walk", "run", "fly", "hover"):
+        draft.claim(verb, "ground", act.kind in ("walk", "run"), [index])
+
+
+def _claim_outcome(
+    draft: SceneDraft, act: VerbSense, verb: Token, index: int, objects: Indices
+) -> None:
+    """Leave it to the staged scene whether an act has its outcome."""
+    outcomes = word_table("outcomes")
+    if outcome := outcomes.get(act.who, {}).get(act.kind):
+        draft.claim(verb, outcome, "", [index])
+    is_machine = draft.things[index]["noun"] in trait_values("gripper")
+    if act.relation and is_machine:
+        draft.claim(verb, "grip", act.relation, [index], objects)
+    elif outcome := outcomes["relation"].get(act.relation):
+        draft.claim(verb, outcome, "", [index], objects)
+
+
+def can_arrive(draft: SceneDraft, subjects: Indices) -> bool:
+    """Whether what stops goes by itself, and nothing is said of how it moves before."""
+    things = draft.things
+    said = [things[n]["motions"] for n in subjects]
+    is_open = all(not one or [{*each} for each in one] == [{"kind"}] for one in said)
+    is_open &= all(each["kind"] == "move" for one in said for each in one)  # "passes and stops"
+    return is_open and all(map(draft.can_go, subjects))
+
+
+def meet(draft: SceneDraft, act: VerbSense, verb: Token, subjects: Indices) -> None:
+    """Let several do it to each other: "collide", "shake hands"."""
+    who, *others = subjects
+    if act.relation == "collide":
+        draft.relate(who, "collide", others or [who])
+    elif is_mutual(act.kind):
+        draft.relate(who, "act on", others or [who])
+        draft.claim(verb, "act on", "", [who], others or [who])
+
+
+def _overtake_ego(draft: SceneDraft, verb: Token, index: int) -> None:
+    """Let a camera go along, so much slower than who comes past it: "a truck overtakes us"."""
+    thing = draft.things[index]
+    own = draft.nouns[thing["noun"]].speed_m_s or _ROAD_M_S
+    if not any(one["kind"] == "travel" for one in draft.moves):
+        draft.add_move({"kind": "travel", "direction": "forward", "means": "drive"})
+    if own < _ROAD_M_S:
+        thing["motions"][-1].pop("pace", None)
+        for move in draft.moves:
+            move.setdefault("speed_m_s", round(_SLOWER * own, 2))
+    thing.setdefault("placement", "left")
+    draft.claim(verb, "overtaken", "", [index])

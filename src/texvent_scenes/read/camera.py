@@ -7,9 +7,8 @@ from dataclasses import replace
 from typing import Any
 
 from texvent_scenes.models.tables import nouns_with
-from texvent_scenes.read.draft.abilities import MEANS
-from texvent_scenes.read.draft.motions import split_move, turn_by
-from texvent_scenes.read.draft.scene_draft import SceneDraft
+from texvent_scenes.read.draft.abilities import MEANS, Indices
+from texvent_scenes.read.draft.scene_draft import SceneDraft, split_move, turn_by
 from texvent_scenes.read.draft.setting import names_place, set_scene
 from texvent_scenes.read.parsing.clauses import Clause
 from texvent_scenes.read.parsing.groups import Group, Phrase, heads_of, nouns_of
@@ -152,9 +151,7 @@ def apply_to_camera(draft: SceneDraft, clause: Clause, *, is_own: bool) -> None:
         _lead_followed(draft, move, targets)
 
 
-def _lead_followed(
-    draft: SceneDraft, move: Mapping[str, Any] | None, targets: Sequence[int]
-) -> None:
+def _lead_followed(draft: SceneDraft, move: Mapping[str, Any] | None, targets: Indices) -> None:
     """Let things go that a camera follows."""
     followed = targets if move is not None and move["kind"] == "follow" else []
     for index in filter(draft.can_go, followed):
@@ -213,7 +210,7 @@ def _lead(move: dict[str, Any], phrase: Phrase) -> dict[str, Any]:
 
 
 def go_through(
-    draft: SceneDraft, move: dict[str, Any], preposition: Token, targets: Sequence[int]
+    draft: SceneDraft, move: dict[str, Any], preposition: Token, targets: Indices
 ) -> bool:
     """Lead a camera that goes ahead through what has a way through, or out; whether it has one."""
     is_ahead = move["kind"] == "travel" or split_move("dolly in").items() <= move.items()
@@ -232,7 +229,7 @@ def go_through(
 
 
 def claim_way(
-    draft: SceneDraft, move: dict[str, Any] | None, preposition: Token, targets: Sequence[int]
+    draft: SceneDraft, move: dict[str, Any] | None, preposition: Token, targets: Indices
 ) -> None:
     """Leave it to the staged camera whether it goes or turns so with respect to a thing."""
     kinds = preposition.relations & word_set("things", "camera_ways")
@@ -249,6 +246,7 @@ def claim_way(
         draft.claim(preposition, "camera", kind, [None], targets)
 
 
+<<<<<<< HEAD
 def _list_led(
     draft: SceneDraft, move: Mapping[str, Any], preposition: Token, targets: Sequence[int]
 ) -> list[int]:
@@ -263,6 +261,9 @@ def _list_led(
 
 
 def look_over(draft: SceneDraft, preposition: Token, targets: Sequence[int]) -> bool:
+=======
+def look_over(draft: SceneDraft, preposition: Token, targets: Indices) -> bool:
+>>>>>>> 267a2c5fff8e888e454c2e7fab5a54b5a68ade2f
     """Let a camera that stays about look down on things, or at the face of what is upright."""
     kinds = preposition.relations
     moves = {one["kind"] for one in draft.moves}

@@ -13,10 +13,9 @@ from texvent_scenes.models.materials import has_colour
 from texvent_scenes.models.protocol import Pose
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.acts import perform
-from texvent_scenes.read.draft.abilities import MEANS
+from texvent_scenes.read.draft.abilities import MEANS, Indices
 from texvent_scenes.read.draft.copies import part_off, part_ways
-from texvent_scenes.read.draft.motions import add_motion, set_field
-from texvent_scenes.read.draft.scene_draft import SceneDraft
+from texvent_scenes.read.draft.scene_draft import SceneDraft, add_motion, set_field
 from texvent_scenes.read.draft.setting import set_scene
 from texvent_scenes.read.parsing.groups import Group
 from texvent_scenes.read.parsing.lexicon import Sense, VerbSense, word_set, word_table
@@ -58,7 +57,7 @@ def say_modifiers(draft: SceneDraft, group: Group, index: int) -> None:
         say_word(draft, token, [] if is_side else [index])
 
 
-def say_word(draft: SceneDraft, token: Token, subjects: Sequence[int]) -> None:
+def say_word(draft: SceneDraft, token: Token, subjects: Indices) -> None:
     """Apply an adjective, an adverb, a participle, or a word of the scene."""
     light = draft.parts["light"]
     said = token.first("field", "picture", "adverb")
@@ -87,13 +86,13 @@ def say_word(draft: SceneDraft, token: Token, subjects: Sequence[int]) -> None:
         draft.claim(token, "shine" if is_lamp else SEEN, "", subjects)
     else:
         if not set_scene(draft, token, things) and things and token.verbs("ing", "ed"):
-            perform(draft, token, subjects, [], has_object=False)
+            perform(draft, token, subjects, [], False)
         return
     draft.show(token)
 
 
 def _claim_adverb(
-    draft: SceneDraft, token: Token, field: str, value: Any, subjects: Sequence[int]
+    draft: SceneDraft, token: Token, field: str, value: Any, subjects: Indices
 ) -> None:
     """Leave it to the staged scene whether things do it so, and let them do what it means."""
     if field == "times":
@@ -108,7 +107,7 @@ def _claim_adverb(
 
 
 def _say_at_once(
-    draft: SceneDraft, token: Token, field: str, value: Any, subjects: Sequence[int]
+    draft: SceneDraft, token: Token, field: str, value: Any, subjects: Indices
 ) -> bool:
     """Apply a state of what opens, or the speed of a view; a dark tunnel is not painted."""
     state = word_table("states").get(token.text)
@@ -147,7 +146,7 @@ def _blow(draft: SceneDraft, index: int) -> bool:
     return bool(thing["motions"]) and thing["motions"][-1]["kind"] == "sway"
 
 
-def _set_state(draft: SceneDraft, token: Token, subjects: Sequence[int]) -> None:
+def _set_state(draft: SceneDraft, token: Token, subjects: Indices) -> None:
     """Apply an adjective of what opens and closes: "an open door"."""
     state = word_table("states")[token.text]
     able = [n for n in subjects if state in draft.noun(n).acts]
@@ -187,7 +186,7 @@ def _say_field(draft: SceneDraft, token: Token, said: Sense, index: int) -> None
     draft.quantities[index, name] = value
 
 
-def _repeat(draft: SceneDraft, times: Any, indices: Sequence[int]) -> None:
+def _repeat(draft: SceneDraft, times: Any, indices: Indices) -> None:
     """Let objects rest after so many repetitions of what is counted."""
     acts = [draft.things[index]["motions"] for index in indices]
     rates = [_REPEATED.get(one[0]["kind"], 0.0) if len(one) == 1 else 0.0 for one in acts]
@@ -196,9 +195,7 @@ def _repeat(draft: SceneDraft, times: Any, indices: Sequence[int]) -> None:
         motions.append({"kind": "stand", "start_s": round(times / rate_hz, 6)})
 
 
-def _find_unsaid(
-    draft: SceneDraft, name: str, indices: Sequence[int], nearest: Sequence[int]
-) -> list[int]:
+def _find_unsaid(draft: SceneDraft, name: str, indices: Indices, nearest: Indices) -> list[int]:
     """Objects of which a quantity is said now: no other than before of the same.
 
     Of "two LEDs at 5 Hz and 9 Hz" the second has it, of "a fan at 5 Hz by a fan at 9 Hz" the

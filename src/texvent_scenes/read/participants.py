@@ -8,7 +8,7 @@ from texvent_scenes.description import SEEN
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.read.acts import perform
-from texvent_scenes.read.draft.abilities import is_of_people
+from texvent_scenes.read.draft.abilities import Indices, is_of_people
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.parsing.clauses import Clause
 from texvent_scenes.read.parsing.groups import Group, Phrase, nouns_of
@@ -99,7 +99,7 @@ def find_object(
     return sorted(others, key=draft.can_go, reverse=True)[:1]  # no tree is followed
 
 
-def leave_places(draft: SceneDraft, picked: Sequence[int], after: Sequence[Phrase | Token]) -> None:
+def leave_places(draft: SceneDraft, picked: Indices, after: Sequence[Phrase | Token]) -> None:
     """Take some of several away from where all were: "two on a desk, one on the floor"."""
     words = (one.preposition for one in after if isinstance(one, Phrase))
     kinds = {sense.value for word in words for sense in word.all("relation")}
@@ -159,7 +159,7 @@ def do_verb(
     is_within = bool(clause.objects) and not objects and bool(ways & {"into", "out of"})
     is_known &= not is_within  # "enters a room", where it is already
     is_lost = clause.is_back and not objects  # "throws a wug and catches it"
-    found = None if is_lost else perform(draft, verb, subjects, objects, has_object=not is_known)
+    found = None if is_lost else perform(draft, verb, subjects, objects, not is_known)
     kind = next((one.value.relation for one in verb.all("verb") if one.value.relation), None)
     if mutual and kind is not None and found:  # "pass each other"
         claim_mutual(draft, [verb, *mutual], kind, subjects)

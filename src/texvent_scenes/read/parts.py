@@ -6,14 +6,14 @@ from collections.abc import Sequence
 
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.tables import nouns_with
-from texvent_scenes.read.draft.motions import BLINK_HZ
-from texvent_scenes.read.draft.scene_draft import SceneDraft
+from texvent_scenes.read.draft.abilities import Indices
+from texvent_scenes.read.draft.scene_draft import BLINK_HZ, SceneDraft
 from texvent_scenes.read.parsing.groups import Group, Phrase, words_of
 from texvent_scenes.read.parsing.lexicon import word_set, word_table
 from texvent_scenes.read.parsing.tokens import Token
 
 
-def are_own_parts(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
+def are_own_parts(draft: SceneDraft, phrase: Phrase, subjects: Indices) -> bool:
     """Whether it names what a thing has, "a fan with four blades", or the tool of its act.
 
     No other number is shown.
@@ -32,7 +32,7 @@ def are_own_parts(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) ->
     return is_so
 
 
-def _take_mark(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
+def _take_mark(draft: SceneDraft, phrase: Phrase, subjects: Indices) -> bool:
     """Let things be those that have a mark, "a disc with a white dot"; "on a blade" it is there."""
     marks = word_table("marks")
     words = words_of(phrase.groups[:1])
@@ -62,7 +62,7 @@ def _take_mark(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bo
     return True
 
 
-def _are_built_in(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
+def _are_built_in(draft: SceneDraft, phrase: Phrase, subjects: Indices) -> bool:
     """Whether it names parts and patterns that are not drawn: "a bus with two doors"."""
     nouns = [one.noun.noun if one.noun else "" for one in phrase.groups]
     is_own = any(word.text in word_table("parts") for word in words_of(phrase.groups))
@@ -72,7 +72,7 @@ def _are_built_in(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) ->
     return bool(nouns) and {*nouns} <= inner and is_body and not is_own
 
 
-def say_parts(draft: SceneDraft, groups: Sequence[Group], subjects: Sequence[int]) -> bool:
+def say_parts(draft: SceneDraft, groups: Sequence[Group], subjects: Indices) -> bool:
     """Account for parts that things have, if all groups name some: "its second hand moving"."""
     owned, words = word_table("parts"), [one.words for one in groups]
     parts = [next((word.text for word in each if word.text in owned), "") for each in words]
@@ -93,7 +93,7 @@ def say_parts(draft: SceneDraft, groups: Sequence[Group], subjects: Sequence[int
     return True
 
 
-def _say_of_part(draft: SceneDraft, word: Token, part: str, owners: Sequence[int]) -> None:
+def _say_of_part(draft: SceneDraft, word: Token, part: str, owners: Indices) -> None:
     """Account for a word about a part; whether it moves, shines or has a colour is to be seen."""
     is_lamp = part in word_set("things", "lamps")
     fields = dict(one.value for one in word.all("field"))

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.tables import nouns_with, trait_value
+from texvent_scenes.read.draft.abilities import Indices
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.draft.setting import names_place, set_scene
 from texvent_scenes.read.modifiers import say_word
@@ -54,7 +55,7 @@ def say_after(
             say_word(draft, one, told if is_placed else moved)
 
 
-def _push_with(draft: SceneDraft, subjects: Sequence[int], riders: Sequence[int]) -> None:
+def _push_with(draft: SceneDraft, subjects: Indices, riders: Indices) -> None:
     """Have who is pushed in or on something pushed with it; no swing is pushed."""
     for index in subjects:
         for row in [one for one in draft.things[index]["relations"] if one["kind"] == "push"]:
@@ -88,13 +89,12 @@ def _choose_placed(
         return told  # "in a room with candles on the table"
     if kind == "on" and draft.names(told) <= word_set("things", "flames"):
         return told or subjects  # "blows out the candles on a cake"
-    kinds = {one["kind"] for index in subjects for one in draft.things[index]["relations"]}
+    kinds = draft.acts(subjects)
     if kind in (kinds if subjects else PLACING):
         return told
     if all(one.head and names_place(one.head, kind) for one in phrase.groups):
         return subjects
-    led = [n for index in subjects for one in draft.things[index]["relations"]
-           if one["kind"] in ("push", "pull") for n in one["to"]]  # fmt: skip
+    led = draft.targets(subjects, ("push", "pull"))
     if kind in ("on", "in") and draft.names(led) & PERSON_NOUNS:
         return led  # "pushes a man in a wheelchair", which it is pushed with
     if kind in ("on", "in") and before in SPACED:
@@ -104,9 +104,7 @@ def _choose_placed(
     return told if kind in PLACING and is_passed else subjects
 
 
-def apply_phrase(
-    draft: SceneDraft, phrase: Phrase, subjects: Sequence[int], moved: Sequence[int]
-) -> list[int]:
+def apply_phrase(draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: Indices) -> list[int]:
     """Apply a preposition with its groups, and give what they name.
 
     `moved` are those that the verb moves; "behind them" is said of the nearest group.
@@ -147,13 +145,13 @@ def apply_phrase(
     return targets
 
 
-def _is_spout(draft: SceneDraft, targets: Sequence[int]) -> bool:
+def _is_spout(draft: SceneDraft, targets: Indices) -> bool:
     """Whether something comes out of a thing below: a nozzle, a funnel."""
     return trait_value("spout", draft.things[targets[0]]["noun"]) is not None
 
 
 def _relate_all(
-    draft: SceneDraft, token: Token, kind: str, subjects: Sequence[int], targets: Sequence[int]
+    draft: SceneDraft, token: Token, kind: str, subjects: Indices, targets: Indices
 ) -> None:
     """Apply a preposition to all that it is said of."""
     if handled := hand_over(draft, token, kind, subjects, targets):
@@ -166,7 +164,7 @@ def _relate_all(
     claim_relation(draft, token, kind, subjects, targets)
 
 
-def _relate_back(draft: SceneDraft, kind: str, phrase: Phrase, subjects: Sequence[int]) -> None:
+def _relate_back(draft: SceneDraft, kind: str, phrase: Phrase, subjects: Indices) -> None:
     """Apply a preposition with a pronoun: "a dog passes a tree, a man behind it"."""
     nearest, token = draft.last.nearest, phrase.preposition
     if phrase.groups:
@@ -176,11 +174,14 @@ def _relate_back(draft: SceneDraft, kind: str, phrase: Phrase, subjects: Sequenc
         far = {one.value for one in before.all("place")} & word_set("things", "backdrops")
         draft.mark(token, "shown" if far and draft.shows(before) else "lost")
         return  # "with mountains behind it"
-    own = {*subjects, *draft.list_held(subjects)}  # "a man in a coat walks behind it"
+    own = {
+        *subjects,
+        *draft.targets(subjects, ("wear", "hold")),
+    }  # "a man in a coat walks behind it"
     is_many = draft.beside(token, 1).text == "them" and draft.is_many(draft.last.earlier)
     is_own = bool(set(nearest) & own) or (is_many and not draft.is_many(nearest))
-    others: Sequence[int] = subjects
-    about: Sequence[int] = draft.last.earlier if is_own else nearest
+    others: Indices = subjects
+    about: Indices = draft.last.earlier if is_own else nearest
     is_fixed = draft.last.where and not any(map(draft.can_go, draft.last.where))
     if is_own and is_fixed and kind in word_set("things", "bearing"):
         about = draft.last.where

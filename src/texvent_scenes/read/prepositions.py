@@ -9,7 +9,7 @@ from texvent_scenes.description import SEEN
 from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS, TO_AND_FROM_SEATS
 from texvent_scenes.models.places import PLACES, PlaceModel
 from texvent_scenes.models.tables import nouns_with
-from texvent_scenes.read.draft.abilities import MEANS
+from texvent_scenes.read.draft.abilities import MEANS, Indices
 from texvent_scenes.read.draft.copies import part_ways
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.parsing.groups import Group, Phrase, heads_of, nouns_of, words_of
@@ -42,7 +42,7 @@ _SMALL_SET = 0.45
 """Size of a backdrop of things that are small enough to be thrown."""
 
 
-def find_relation(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> str:
+def find_relation(draft: SceneDraft, phrase: Phrase, subjects: Indices) -> str:
     """The relation that a preposition means after what the subjects do; "" = none."""
     token = phrase.preposition
     kind = token.relation
@@ -87,7 +87,7 @@ def lose_drift(draft: SceneDraft, after: Sequence[Phrase | Token]) -> None:
             draft.mark(token, "lost")
 
 
-def names_formation(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
+def names_formation(draft: SceneDraft, phrase: Phrase, subjects: Indices) -> bool:
     """Whether it names a form in which some stand or go, which is lost: "flying in a spiral".
 
     A dot in a square is a thing in another one.
@@ -106,9 +106,7 @@ def find_mutual(groups: Sequence[Group], after: Sequence[Phrase | Token] = ()) -
     return [one for one in words if one.text == "each other"]
 
 
-def claim_mutual(
-    draft: SceneDraft, tokens: Sequence[Token], kind: str, subjects: Sequence[int]
-) -> None:
+def claim_mutual(draft: SceneDraft, tokens: Sequence[Token], kind: str, subjects: Indices) -> None:
     """Send things to each other, and leave it to the staged scene whether they are so."""
     does = {each["kind"] for one in subjects for each in draft.things[one]["motions"][-1:]}
     if kind in ("past", "towards") and does & {*MEANS, "move", "roll", "slide"}:
@@ -118,9 +116,8 @@ def claim_mutual(
 
 
 def go_to_place(
-    draft: SceneDraft, token: Token, heads: list[Token], subjects: Sequence[int],
-    moved: Sequence[int],
-) -> None:  # fmt: skip
+    draft: SceneDraft, token: Token, heads: list[Token], subjects: Indices, moved: Indices
+) -> None:
     """As "across a field"; a dog "on a road" stands on it, "in a lake" it only could swim."""
     place = PLACES[draft.parts["place"]["name"]]
     is_entered = token.text in ("onto", "into") and place.has_road and bool(moved)
@@ -156,7 +153,7 @@ def go_to_place(
             draft.things[index].setdefault("placement", "lane")
 
 
-def _shows_way(draft: SceneDraft, token: Token, place: PlaceModel, subjects: Sequence[int]) -> bool:
+def _shows_way(draft: SceneDraft, token: Token, place: PlaceModel, subjects: Indices) -> bool:
     """Whether a place shows a preposition: no "towards a park", "by a forest"."""
     kinds = token.relations
     if token.text in ("across", "down", "up"):
@@ -171,7 +168,7 @@ def _shows_way(draft: SceneDraft, token: Token, place: PlaceModel, subjects: Seq
 
 
 def claim_relation(
-    draft: SceneDraft, token: Token, kind: str, subjects: Sequence[int], targets: Sequence[int]
+    draft: SceneDraft, token: Token, kind: str, subjects: Indices, targets: Indices
 ) -> None:
     """Leave it to the staged scene whether a preposition that places nothing holds all the same.
 
@@ -200,7 +197,7 @@ def claim_relation(
         draft.claim(token, "off" if kind == "off" else "relation", kind, subjects, targets)
 
 
-def set_before(draft: SceneDraft, token: Token, noun: str, subjects: Sequence[int]) -> bool:
+def set_before(draft: SceneDraft, token: Token, noun: str, subjects: Indices) -> bool:
     """Put what a word says without naming it behind things: "a hand, backlit", by a lit panel."""
     targets = draft.find([noun])[:1]
     if not targets:
@@ -214,7 +211,7 @@ def set_before(draft: SceneDraft, token: Token, noun: str, subjects: Sequence[in
     return True
 
 
-def keep_distance(draft: SceneDraft, preposition: Token, subjects: Sequence[int]) -> None:
+def keep_distance(draft: SceneDraft, preposition: Token, subjects: Indices) -> None:
     """Apply the distance before a preposition: "2 m behind a car"."""
     token = draft.beside(preposition, -1)
     name, value = token.value("adverb")
@@ -225,7 +222,7 @@ def keep_distance(draft: SceneDraft, preposition: Token, subjects: Sequence[int]
                 draft.show(token)
 
 
-def dress(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
+def dress(draft: SceneDraft, phrase: Phrase, subjects: Indices) -> bool:
     """Give persons clothes of a colour: "a man in red"; whether it says so."""
     words = [one.unknown[0] for one in phrase.groups if one.head is None and one.unknown]
     said = [one.first("field") for one in words if len(words) == len(phrase.groups) == 1]

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 from texvent_scenes.models.activities import AIMED, PERSON_NOUNS
 from texvent_scenes.models.anchors import has_rim, takes_in
 from texvent_scenes.models.people.outfit import can_be_worn, list_props
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
+from texvent_scenes.read.draft.abilities import Indices
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.parsing.lexicon import word_set
 from texvent_scenes.read.parsing.tokens import Token
@@ -26,7 +27,7 @@ _SMALL = nouns_with("in hand or on something")
 _HANDED = {"into": "in", "in": "in", "on": "on", "to": "on", "above": "on"}
 
 
-def relate_one(draft: SceneDraft, kind: str, index: int, targets: Sequence[int]) -> bool:
+def relate_one(draft: SceneDraft, kind: str, index: int, targets: Indices) -> bool:
     """Relate a thing to others as far as scenes can; whether it is so."""
     thing, noun = draft.things[index], draft.things[targets[0]]["noun"]
     if kind == "with" and len(parts := _part_worn(draft, targets)) > 1:
@@ -63,17 +64,16 @@ def relate_one(draft: SceneDraft, kind: str, index: int, targets: Sequence[int])
     return bool(kind) and draft.relate(ridden_by(draft, index, kind), kind, targets)
 
 
-def bear_on(draft: SceneDraft, verb: Token, index: int, objects: Sequence[int]) -> None:
+def bear_on(draft: SceneDraft, verb: Token, index: int, objects: Indices) -> None:
     """Put things on what carries them: "a robot carrying a box", "a belt carrying bolts"."""
     for one in objects:
         draft.things[one]["motions"] = []
     placed = [relate_one(draft, "on", one, [index]) for one in objects]
     draft.mark(verb, "shown" if placed and all(placed) else "lost")
-    for one in objects:
-        draft.claim(verb, "relation", "on", [one], [index])
+    draft.claim(verb, "relation", "on", objects, [index])
 
 
-def lead_on(draft: SceneDraft, verb: Token, index: int, objects: Sequence[int]) -> None:
+def lead_on(draft: SceneDraft, verb: Token, index: int, objects: Indices) -> None:
     """Have those who are led come after: "a dog leads a man"."""
     going = [one for one in objects if draft.can_go(one)]
     for one in going:
@@ -83,7 +83,7 @@ def lead_on(draft: SceneDraft, verb: Token, index: int, objects: Sequence[int]) 
 
 
 def hand_over(
-    draft: SceneDraft, token: Token, kind: str, subjects: Sequence[int], targets: Sequence[int]
+    draft: SceneDraft, token: Token, kind: str, subjects: Indices, targets: Indices
 ) -> str:
     """Fate of where a machine takes or leaves things: "picks a box off a belt"; "" = it does not.
 
@@ -106,26 +106,19 @@ def hand_over(
 
 def ridden_by(draft: SceneDraft, index: int, kind: str) -> int:
     """Vehicle that goes where its rider goes: "rides a bicycle past a tree"."""
-    relations = draft.things[index]["relations"]
-    ridden = [one["to"][0] for one in relations if one["kind"] == "ride"]
-    is_way = kind in word_set("things", "passed") | {
-        "through",
-        "follow",
-        "overtake",
-        "behind",
-        *WAYS,
-    }
-    return ridden[0] if ridden and is_way else index
+    ridden = draft.targets([index], ["ride"])
+    ways = {*WAYS, "through", "follow", "overtake", "behind"} | word_set("things", "passed")
+    return ridden[0] if ridden and kind in ways else index
 
 
-def _part_worn(draft: SceneDraft, targets: Sequence[int]) -> list[list[int]]:
+def _part_worn(draft: SceneDraft, targets: Indices) -> list[list[int]]:
     """Things that can be worn, and others: "with glasses and a boy"."""
     worn = {one for one in targets if can_be_worn(draft.things[one]["noun"])}
     parts = [one for one in targets if one in worn], [one for one in targets if one not in worn]
     return [*filter(None, parts)]
 
 
-def _bear(draft: SceneDraft, index: int, targets: Sequence[int]) -> str:
+def _bear(draft: SceneDraft, index: int, targets: Indices) -> str:
     """Relation of what is with something to it: "a horse with a rider", "a tray with glasses"."""
     bearer, first = draft.things[index]["noun"], draft.things[targets[0]]["noun"]
     if bearer in nouns_with("see-through"):

@@ -103,8 +103,7 @@ def _apply_to_things(draft: SceneDraft, clause: Clause) -> None:
     told = subjects = find_subjects(draft, clause)
     draft.last.before = draft.last.nearest
     first = clause.verb.at if clause.verb is not None else 0
-    before = [one for one in clause.after
-              if isinstance(one, Phrase) and one.preposition.at < first]  # fmt: skip
+    before = [one for one in clause.after if isinstance(one, Phrase) and one.preposition.at < first]
     for phrase in before:
         if are_own_parts(draft, phrase, subjects):
             continue

@@ -8,6 +8,7 @@ from dataclasses import replace
 from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.tables import nouns_with, trait_value
+from texvent_scenes.read.draft.abilities import Indices
 from texvent_scenes.read.draft.copies import (
     PLURAL_COUNT,
     add_like,
@@ -16,8 +17,7 @@ from texvent_scenes.read.draft.copies import (
     pick,
     stack,
 )
-from texvent_scenes.read.draft.motions import add_motion
-from texvent_scenes.read.draft.scene_draft import SceneDraft
+from texvent_scenes.read.draft.scene_draft import SceneDraft, add_motion
 from texvent_scenes.read.draft.setting import names_place, set_place, set_scene
 from texvent_scenes.read.modifiers import say_modifiers, say_word
 from texvent_scenes.read.parsing.groups import Group, Phrase, is_trajectory, ordinals
@@ -58,7 +58,7 @@ def pick_group(draft: SceneDraft, group: Group, known: int) -> list[int]:
 
 
 def name_group(
-    draft: SceneDraft, group: Group, relation: str = "", owners: Sequence[int] = ()
+    draft: SceneDraft, group: Group, relation: str = "", owners: Indices = ()
 ) -> list[int]:
     """Add what a group names; the indices of its objects, at most one."""
     head = group.head
@@ -85,7 +85,7 @@ def name_group(
     return found
 
 
-def _name_others(draft: SceneDraft, group: Group, relation: str, owners: Sequence[int]) -> None:
+def _name_others(draft: SceneDraft, group: Group, relation: str, owners: Indices) -> None:
     """Add an effect, light or weather, or nothing that is known."""
     head = group.head
     for token in group.unknown if relation not in ("", "with") else ():
@@ -127,7 +127,7 @@ def _light_own(draft: SceneDraft, group: Group) -> None:
             say_word(draft, token, lamps)
 
 
-def _fill(draft: SceneDraft, vessels: Sequence[int], content: Group, token: Token) -> None:
+def _fill(draft: SceneDraft, vessels: Indices, content: Group, token: Token) -> None:
     """Add a place, or what is in a vessel or place: "of apples"; else its part is not known."""
     head, nouns = content.head, [draft.things[one]["noun"] for one in vessels]
     kinds = (("in", "vessels"), ("on", "laden"), ("on", "loaded"))

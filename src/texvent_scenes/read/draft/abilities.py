@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from typing import Any
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from typing import Any, TypeAlias
 
 from texvent_scenes.models.activities import (
     ACTIVITIES,
@@ -23,6 +23,8 @@ from texvent_scenes.read.parsing.tokens import Token
 from texvent_scenes.spec.data import ACTED, SENT
 
 MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
+Indices: TypeAlias = Sequence[int]
+"""Numbers of objects of a draft."""
 _THROWN_M = 2.0
 """Greatest extent of what is thrown, caught or kicked, m."""
 _SWITCHED_S = 1.0
@@ -59,6 +61,11 @@ class Abilities:
         """Relations of objects, such as what they do to others."""
         return {one["kind"] for index in indices for one in self.things[index]["relations"]}
 
+    def targets(self, indices: Iterable[int], kinds: Collection[str]) -> list[int]:
+        """Objects to which some have relations of these kinds."""
+        return [target for index in indices for one in self.things[index]["relations"]
+                if one["kind"] in kinds for target in one["to"]]  # fmt: skip
+
     def find(self, names: Collection[str]) -> list[int]:
         """Objects of some nouns."""
         return [index for index, one in enumerate(self.things) if one["noun"] in names]
@@ -79,9 +86,7 @@ class Abilities:
 
     def is_swung(self, index: int) -> bool:
         """Whether an object is on a swing."""
-        relations = [one for one in self.things[index]["relations"] if one["kind"] == "on"]
-        seats = self.names(n for one in relations for n in one["to"])
-        return bool(seats & nouns_with("swings"))
+        return bool(self.names(self.targets([index], ["on"])) & nouns_with("swings"))
 
     def list_lit(self, index: int) -> list[int]:
         """An object and those with lamps on or below it: candles of a cake go out with its own."""
@@ -113,9 +118,7 @@ class Abilities:
         model = self.noun(index).build(colour=None, scale=1.0, seed=0)
         return max(model.length, model.width, model.height) <= _THROWN_M
 
-    def fits(
-        self, verb: VerbSense, subjects: Sequence[int], objects: Sequence[int], has_object: bool
-    ) -> bool:
+    def fits(self, verb: VerbSense, subjects: Indices, objects: Indices, has_object: bool) -> bool:
         """Whether the subjects can do it, with an object or without one."""
         things = [self.things[one] for one in subjects]
         names = {one["noun"] for one in things}
@@ -159,7 +162,7 @@ class Abilities:
         needs_object = verb.object or verb.relation in word_set("things", "doing")
         return meets or not verb.relation or (bool(verb.kind) and not needs_object)
 
-    def names_tool(self, subjects: Sequence[int], words: Sequence[Token]) -> bool:
+    def names_tool(self, subjects: Indices, words: Sequence[Token]) -> bool:
         """Whether words name what is drawn with an act: "chops wood with an axe"."""
         kinds = self.does(subjects)
         is_hit = "hit" in self.acts(subjects)
@@ -168,14 +171,14 @@ class Abilities:
                  for part in (prop.name, prop.name.rpartition(" ")[2])}  # fmt: skip
         return bool(words) and all(one.text in tools and not one.has("noun") for one in words)
 
-    def _has_mouths(self, subjects: Sequence[int], objects: Sequence[int]) -> bool:
+    def _has_mouths(self, subjects: Indices, objects: Indices) -> bool:
         """Whether animals have small things in their mouths."""
         small = nouns_with("in hand or on something") | nouns_with("in a mouth")
         names = self.names(subjects)
         is_animal = not names & (PERSON_NOUNS | HAND_NOUNS) and all(map(self.walks, subjects))
         return is_animal and self.names(objects) <= small
 
-    def _acts_on(self, verb: VerbSense, names: set[str], objects: Sequence[int]) -> bool:
+    def _acts_on(self, verb: VerbSense, names: set[str], objects: Indices) -> bool:
         """Whether nouns can do an act, and it can be done to these objects."""
         is_able = names <= PERSON_NOUNS
         if verb.who == "animal":
@@ -184,7 +187,7 @@ class Abilities:
         return is_able and bool(objects) and self.names(objects) <= upon
 
     def _is_able(
-        self, verb: VerbSense, subjects: Sequence[int], objects: Sequence[int], has_object: bool
+        self, verb: VerbSense, subjects: Indices, objects: Indices, has_object: bool
     ) -> bool | None:
         """Whether those whom a verb needs can do it; None: anything may."""
         things = [self.things[one] for one in subjects]
@@ -245,21 +248,15 @@ class Abilities:
         lit = nouns_with("own effect") | nouns_with("flat pattern") | word_set("things", "flames")
         return names <= LAMPS.keys() | lit
 
-    def _are_moved(self, subjects: Sequence[int], objects: Sequence[int]) -> bool:
+    def _are_moved(self, subjects: Indices, objects: Indices) -> bool:
         """Whether subjects move objects already: what they do then is not shown."""
-        said = (one for index in subjects for one in self.things[index]["relations"])
-        return any(one["kind"] in ACTED and {*one["to"]} & {*objects} for one in said)
+        return not {*objects}.isdisjoint(self.targets(subjects, ACTED))
 
     def has_top(self, index: int) -> bool:
         """Whether an object stays, so that others may rise, jump or fall from on top of it."""
         noun = self.things[index]["noun"]
         is_low = trait_value("climbed", noun) is None and noun not in nouns_with("towering")
         return self.nouns[noun].habitat in ("fixed", "ground") and is_low
-
-    def list_held(self, owners: Sequence[int]) -> Iterator[int]:
-        """Objects that some hold or wear."""
-        for relation in (one for owner in owners for one in self.things[owner]["relations"]):
-            yield from relation["to"] if relation["kind"] in ("wear", "hold") else ()
 
     def place_by(self, index: int) -> str:
         """Relation of those who are where an object is: "a sofa where a girl reads"."""
@@ -268,7 +265,7 @@ class Abilities:
             return "at"
         return "on" if noun in nouns_with("seat") | nouns_with("way") else "beside"
 
-    def is_many(self, indices: Sequence[int]) -> bool:
+    def is_many(self, indices: Indices) -> bool:
         """Whether objects are several bodies: "them"."""
         return sum(int(self.things[index]["count"]) for index in indices) > 1
 

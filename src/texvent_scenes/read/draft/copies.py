@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from copy import deepcopy
 from typing import Any
 
-from texvent_scenes.read.draft.motions import set_field
-from texvent_scenes.read.draft.scene_draft import SceneDraft
+from texvent_scenes.read.draft.abilities import Indices
+from texvent_scenes.read.draft.scene_draft import SceneDraft, set_field
 
 OPPOSITE = "opposite"
 """Direction of copies of which a half goes to either side."""
@@ -17,7 +16,7 @@ _TURNS, _TURN_S = 5, 0.25
 """Copies of what does something one after another, and time between them, s."""
 
 
-def part_ways(draft: SceneDraft, parted: Sequence[int]) -> bool:
+def part_ways(draft: SceneDraft, parted: Indices) -> bool:
     """Lead objects, or halves of one's copies, in opposite directions; False: it is one."""
     is_one = sum(draft.things[index]["count"] for index in parted) < 2
     sides = ("right", "left") if parted[1:] else (OPPOSITE,)
@@ -72,7 +71,7 @@ def halve(draft: SceneDraft, own: int) -> None:
             motion |= {"direction": side} if motion.get("direction") == OPPOSITE else {}
 
 
-def pick(draft: SceneDraft, word: str, count: int, among: Sequence[int] = ()) -> list[int]:
+def pick(draft: SceneDraft, word: str, count: int, among: Indices = ()) -> list[int]:
     """Part some from the last object of more copies, of those that go; or what was left."""
     many = find_several(draft, among)
     if word in ("other", "others") or not many:
@@ -86,7 +85,7 @@ def pick(draft: SceneDraft, word: str, count: int, among: Sequence[int] = ()) ->
     return [len(draft.things) - 1] if count in (1, draft.things[-1]["count"]) else []
 
 
-def find_several(draft: SceneDraft, among: Sequence[int] = (), least: int = 2) -> list[int]:
+def find_several(draft: SceneDraft, among: Indices = (), least: int = 2) -> list[int]:
     """The last object of so many copies, of those that go by themselves if there is one."""
     said = among or range(len(draft.things))
     many = [n for n in said if draft.things[n]["count"] >= least]

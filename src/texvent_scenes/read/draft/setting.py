@@ -7,8 +7,7 @@ from typing import Any
 
 from texvent_scenes.description import SEEN
 from texvent_scenes.models.places import is_room
-from texvent_scenes.read.draft.motions import split_move
-from texvent_scenes.read.draft.scene_draft import SceneDraft
+from texvent_scenes.read.draft.scene_draft import SceneDraft, split_move
 from texvent_scenes.read.parsing.groups import Group
 from texvent_scenes.read.parsing.lexicon import word_set, word_table
 from texvent_scenes.read.parsing.tokens import Token

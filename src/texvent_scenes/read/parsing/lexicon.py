@@ -137,9 +137,8 @@ def _make(nouns: Mapping[str, Noun]) -> Lexicon:
 
 def _list_nouns(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
     said = [
-        one for one in nouns.values()
-        if one.name not in SCENERY_ONLY and one.name not in VARIANTS
-    ]  # fmt: skip
+        one for one in nouns.values() if one.name not in SCENERY_ONLY and one.name not in VARIANTS
+    ]
     plurals = {name: NounSense(one.name, is_plural=True) for one in said for name in one.plurals}
     names = {name: NounSense(one.name) for one in said for name in (one.name, *one.synonyms)}
     others = {**read_table("kinds", "read")}
@@ -222,8 +221,7 @@ def _list_passives(activity: Activity) -> Iterator[str]:
         verb, _, rest = phrase.partition(" ")
         what = " ".join(one for one in rest.split() if one not in word_set("senses", "articles"))
         if what and not any(one in _PARTICLES for one in what.split()):
-            yield from (f"{what} being {word}" for word, form in list_forms(verb)
-                        if form == "ed")  # fmt: skip
+            yield from (f"{what} being {word}" for word, form in list_forms(verb) if form == "ed")
 
 
 _PARTICLES = frozenset(

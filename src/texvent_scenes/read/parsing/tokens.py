@@ -221,7 +221,7 @@ def _owned() -> tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str
         (rf"\b({bare})\b(?! and\b)", lambda found: ", its ".join(found[0].rsplit(" ", 1))),
         (rf"\b(?:the )?((?:\w+ )?(?:{parts})) {of}({owners})\b", r"\2\3, its \1"),
         (rf"\b({numbers}|\d+)[- ]({many})(?:d|ed)? ({owners})\b", r"\3 with \1 \2s"),
-    )  # fmt: skip
+    )
     return tuple((re.compile(pattern, re.IGNORECASE), said) for pattern, said in rows)
 
 
