@@ -246,9 +246,8 @@ def claim_way(
         draft.claim(preposition, "camera", kind, [None], targets)
 
 
-<<<<<<< HEAD
 def _list_led(
-    draft: SceneDraft, move: Mapping[str, Any], preposition: Token, targets: Sequence[int]
+    draft: SceneDraft, move: Mapping[str, Any], preposition: Token, targets: Indices
 ) -> list[int]:
     """Things that come along behind a camera: "walks backward in front of her"."""
     kinds, after = {one.value for one in preposition.all("relation")}, preposition.at + 1
@@ -260,10 +259,7 @@ def _list_led(
     return [index for index in about if draft.goes(index)]
 
 
-def look_over(draft: SceneDraft, preposition: Token, targets: Sequence[int]) -> bool:
-=======
 def look_over(draft: SceneDraft, preposition: Token, targets: Indices) -> bool:
->>>>>>> 267a2c5fff8e888e454c2e7fab5a54b5a68ade2f
     """Let a camera that stays about look down on things, or at the face of what is upright."""
     kinds = preposition.relations
     moves = {one["kind"] for one in draft.moves}
