@@ -16,9 +16,9 @@ from texvent_scenes.staging.compose import ComposedScene
 
 _INSIDE, _OFTEN = 0.5, 0.4
 """Share of a subject's box that is inside the image; share of the instants in which it must be."""
-_MERGED, _FEWEST = 0.75, 6
-"""Share of the smaller of two boxes in the image from which on they look like one; copies up to
-which one counts them."""
+_MERGED, _NEAR, _FEWEST = 0.75, 0.8, 6
+"""Share of the smaller of two boxes in the image from which on they look like one, if they are as
+near each other, in their sizes; copies up to which one counts them."""
 _COVERS = 0.12
 """Share of the image from which on something before the subject covers much of it."""
 
@@ -56,8 +56,11 @@ def find_merged(
         own = [one for one in scene.actors if one.object_index == index]
         if not 2 <= len(own) == said.count <= _FEWEST:
             continue
-        told = [_count_apart([_image_box(one, time_s, camera, size) for one in own])
-                for time_s, camera in zip(times, cameras, strict=True)]  # fmt: skip
+        told = []
+        for at, camera in zip(times, cameras, strict=True):
+            boxes = [_image_box(one, at, camera, size) for one in own]
+            told.append(_count_apart([(box, one.middle(at), one.size_m)
+                                      for box, one in zip(boxes, own, strict=True)]))  # fmt: skip
         seen = int(np.median(told))
         if seen < len(own):
             yield index, seen
@@ -114,13 +117,19 @@ def _share_inside(one: Actor, time_s: float, camera: PosedCamera, size: SensorSi
     return float(np.prod(np.ptp(inside, axis=0)) / max(float(np.prod(np.ptp(box, axis=0))), 1e-9))
 
 
-def _count_apart(boxes: Sequence[Float64Array]) -> int:
-    """Number of boxes of which none is mostly over one that is counted before."""
-    apart = list[Float64Array]()
-    for box in boxes:
-        area = float(np.prod(np.ptp(box, axis=0)))
-        if area > 0.0 and not any(_overlap(box, one) for one in apart):
-            apart.append(box)
+def _count_apart(copies: Sequence[tuple[Float64Array, Float64Array, float]]) -> int:
+    """Number of copies of which none merges with one that is counted before.
+
+    Each is its box in the image, its middle and its size, m: what is far behind is smaller.
+    """
+    apart = list[tuple[Float64Array, Float64Array]]()
+    for box, middle, size_m in copies:
+        is_merged = any(
+            _overlap(box, other) and np.linalg.norm(middle - place) < _NEAR * size_m
+            for other, place in apart
+        )
+        if np.prod(np.ptp(box, axis=0)) > 0.0 and not is_merged:
+            apart.append((box, middle))
     return len(apart)
 
 
