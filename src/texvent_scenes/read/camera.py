@@ -83,7 +83,7 @@ def look_out(draft: SceneDraft, clause: Clause) -> Clause | None:
     draft.things.clear()
     draft.claims.clear()
     means = {"fly": "flying", "drive": "driving"}.get(draft.nouns[first.noun.noun].motion)
-    if means and not any(one.value.kind in MEANS for one in verb.all("verb")):  # "races"
+    if means and not any(one.value.kind in MEANS for one in verb.all("verb")):  # "cruises"
         verb = replace(verb, senses=lexicon_of(draft.nouns)[(means,)])
     return replace(clause, subjects=(), about="", verb=verb)
 
@@ -110,7 +110,7 @@ def is_shot(clause: Clause) -> bool:
 def apply_to_camera(draft: SceneDraft, clause: Clause, *, is_own: bool) -> None:
     """Move the camera as a clause says, and name what is in view."""
     targets = list[int]()
-    move = find_move(draft, clause, is_ego=is_own)
+    move = find_move(draft, clause)
     for group in clause.subjects if clause.about != "company" else ():
         name_group(draft, group, "in")
     for group in clause.objects if not is_own else ():
@@ -159,7 +159,7 @@ def _lead_followed(draft: SceneDraft, move: Mapping[str, Any] | None, targets: I
         thing["motions"] = thing["motions"] or [{"kind": "move"}]
 
 
-def find_move(draft: SceneDraft, clause: Clause, *, is_ego: bool = False) -> dict[str, Any] | None:
+def find_move(draft: SceneDraft, clause: Clause) -> dict[str, Any] | None:
     """The move of a clause with its direction and pace; these words are counted as shown.
 
     None where the verb is no move of a camera.
@@ -170,7 +170,6 @@ def find_move(draft: SceneDraft, clause: Clause, *, is_ego: bool = False) -> dic
     if verb is None or not moves:
         return None
     draft.show(verb)
-    moves = [one for one in moves if one.startswith("travel")] if is_ego else moves
     move = split_move(moves[0])
     turned = word_table("turned_moves")
     for one in clause.after:
