@@ -313,12 +313,6 @@ def test_of_things_without_a_number_most_in_view_are_enough():
     assert not _are_enough("tree (cut off)", ["trees"])
 
 
-def test_a_lake_whose_water_is_out_of_view_is_told_of():
-    seen = "a drone flies over a lake surrounded by trees"
-    assert is_right(seen)
-    assert "lake" not in report(f"{seen}. Mountains can be seen in the distance.").shown
-
-
 @pytest.mark.parametrize(
     "text",
     ["a dog barks, then sparks fly from a barrel", "a man waves, then smoke rises from a campfire",

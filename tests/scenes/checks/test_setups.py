@@ -34,14 +34,3 @@ def test_a_first_person_view_goes_with_the_camera(text, means):
     said = report(text)
     assert any(f'means = "{means}"' in one for one in said.scene)
     assert "objects" not in " ".join(said.scene)
-
-
-@pytest.mark.parametrize("place", ["a field", "a beach", "a street"])
-def test_lamps_of_ceilings_hang_from_nothing_in_the_open(place):
-    assert "hanging from nothing" in " ".join(
-        report(f"flickering ceiling lamps in {place}").not_shown
-    )
-
-
-def test_who_passes_before_a_large_thing_covers_it():
-    assert "occludes" in report("a person occludes a car").shown

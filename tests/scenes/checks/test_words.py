@@ -37,6 +37,7 @@ def test_each_word_is_in_the_list_that_the_picture_makes_right(text, said):
             "unread": word in found.not_understood,
             "uncertain": word in found.uncertain,
             "sure": not found.uncertain,
+            "seen": not found.out_of_view,
             "also": word in found.shown,
             "not": word not in found.shown,
             "hidden": any(each.startswith(word) for each in found.out_of_view),
