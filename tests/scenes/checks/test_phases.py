@@ -26,10 +26,6 @@ def test_what_goes_behind_what_goes_follows_it(text):
     assert "behind" in report(text).shown
 
 
-def test_who_rides_in_no_closed_vehicle_is_not_hidden():
-    assert not report("a woman rides a motorcycle").out_of_view
-
-
 def test_a_cyclist_has_one_bicycle():
     assert sum("bicycle" in line for line in report("a cyclist pushes his bicycle").scene) == 0
     said = report("a cyclist falls off his bike")

@@ -39,17 +39,6 @@ def test_a_first_person_view_goes_with_the_camera(text, means):
     assert "objects" not in " ".join(said.scene)
 
 
-@pytest.mark.parametrize("place", ["a field", "a beach", "a street"])
-def test_lamps_of_ceilings_hang_from_nothing_in_the_open(place):
-    assert "hanging from nothing" in " ".join(
-        report(f"flickering ceiling lamps in {place}").not_shown
-    )
-
-
-def test_who_passes_before_a_large_thing_covers_it():
-    assert "occludes" in report("a person occludes a car").shown
-
-
 @for_every(name for name, one in PLACES.items() if one.is_room and name != "indoor")
 def test_a_camera_that_goes_through_a_room_sees_what_stands_in_it(name):
     for how in ("walking", "flying"):

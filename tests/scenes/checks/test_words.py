@@ -36,11 +36,14 @@ def test_each_word_is_in_the_list_that_the_picture_makes_right(text, said):
             "lost": word not in found.shown and word in told,
             "unread": word in found.not_understood,
             "uncertain": word in found.uncertain,
+            "sure": not found.uncertain,
+            "seen": not found.out_of_view,
             "also": word in found.shown,
             "not": word not in found.shown,
             "hidden": any(each.startswith(word) for each in found.out_of_view),
         }
         assert holds.get(kind, one in found.shown and one not in told), (one, found)
+    assert ("uncertain" in " ".join(found.lines())) == bool(found.uncertain)
 
 
 def test_a_number_of_repetitions_is_that_of_the_clip():

@@ -86,19 +86,3 @@ def test_what_a_check_does_not_hold_leaves_the_shown_words_and_is_named(text):
     assert len(shown) == len(set(shown))
     missing = [one for one in words_of(text) if one not in (*words_of(told), *FUNCTION_WORDS)]
     assert not [one for one in missing if one != "to"], told
-
-
-@pytest.mark.parametrize(
-    ("prompt", "counts", "said"),
-    [
-        ("30 balls roll", [24], {"30": "24"}),
-        ("a dog and 1,000 red balls", [1, 24], {"1,000": "24"}),
-        ("24 dogs, 24 cats and 20 birds run", [20, 20, 20], {"24": "20"}),
-        ("24 cubes", [24], {}),
-    ],
-)
-def test_copies_that_a_scene_does_not_hold_are_told(prompt, counts, said):
-    reading = reader.read(prompt, NOUNS)
-    assert [one.count for one in reading.scene.objects] == counts
-    assert {one.said: one.shown for one in reading.substituted} == said
-    assert not {*said} & {*reading.shown}
