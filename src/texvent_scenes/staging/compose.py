@@ -43,7 +43,7 @@ from texvent_scenes.staging.surroundings.environment import (
     water_line,
 )
 from texvent_scenes.staging.surroundings.lamps import LampPlan, plan_lamps
-from texvent_scenes.staging.surroundings.lighting import choose_lighting
+from texvent_scenes.staging.surroundings.lighting import DARK, choose_lighting
 from texvent_scenes.staging.surroundings.scenery import SceneryItem, ViewClearance, scatter
 
 VIEW_INSTANTS = 7
@@ -162,7 +162,9 @@ def compose_scene(
         strength=choose_lighting(ground, description.light).lamps,
         instant_s=0.5 * duration_s, framing=camera_path.framing, items=items,
     )  # fmt: skip
-    setting = Setting(actors, camera_path, place, duration_s, seed)
+    setting = Setting(
+        actors, camera_path, place, duration_s, seed, is_dark=description.light.kind in DARK
+    )  # fmt: skip
     particles = stage_effects(description, setting)
     held = [one for one in actors if waits_to_fall(description.objects[one.object_index])]
     still = assemble([*(item.place() for item in items), *map(_hang, held)])

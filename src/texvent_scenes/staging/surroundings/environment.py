@@ -351,7 +351,7 @@ def build_environment(
         room_half_size=room_m if place.is_room else NO_ROOM_M,
         corridor_half_width=corridor_m,
         ground_surface=Texture.SNOW if is_white else place.surface,
-        has_stars=not place.is_backdrop,
+        has_stars=not place.is_backdrop and said.weather is None,
         wall_surface=place.walls,
         wall_colour=place.wall_colour,
         road_crossings=np.array(road.crossings, dtype=np.float64).reshape(-1, 3),
