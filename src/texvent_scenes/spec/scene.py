@@ -284,9 +284,14 @@ class Place:
     """Scenery on the horizon."""
     road: Literal["crossing"] | None = None
     """Another road that crosses the straight one."""
+    road_m: tuple[Coordinate, Coordinate] | None = None
+    """Point on the middle of the road, m; left out: beside its first vehicle, in whose right lane
+    that is. The report says where it is."""
+    road_heading_deg: Annotated[float, Between(-360.0, 360.0)] | None = None
+    """Direction of the road, degrees anticlockwise from x; left out: that of its first vehicle."""
     crossing_m: tuple[Coordinate, Coordinate] | None = None
-    """Point on the other road, m, which crosses at right angles; left out: 7 m along the road from
-    its first vehicle. The report says where the roads cross."""
+    """Where the roads cross, at right angles, m; off the road, a point on the other one. Left out:
+    7 m along the road from its first vehicle, or where that turns."""
     is_empty: bool = False
     """Whether scenery and furniture are left out."""
     has_snow: bool = False

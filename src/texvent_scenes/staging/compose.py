@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -36,6 +37,7 @@ from texvent_scenes.staging.placement.object_placement import ObjectPlacer
 from texvent_scenes.staging.placement.zones import keep_to_zones, zone_of
 from texvent_scenes.staging.surroundings.environment import (
     AnimatedEnvironment,
+    RoadLine,
     build_environment,
     contrasting,
     find_road,
@@ -43,7 +45,7 @@ from texvent_scenes.staging.surroundings.environment import (
     water_line,
 )
 from texvent_scenes.staging.surroundings.lamps import LampPlan, plan_lamps
-from texvent_scenes.staging.surroundings.lighting import choose_lighting
+from texvent_scenes.staging.surroundings.lighting import DARK, choose_lighting
 from texvent_scenes.staging.surroundings.pieces import SceneryItem, ViewClearance
 from texvent_scenes.staging.surroundings.scenery import scatter
 
@@ -163,18 +165,38 @@ def compose_scene(
         strength=choose_lighting(ground, description.light).lamps,
         instant_s=0.5 * duration_s, framing=camera_path.framing, items=items,
     )  # fmt: skip
-    setting = Setting(actors, camera_path, place, duration_s, seed)
+    setting = Setting(
+        actors, camera_path, place, duration_s, seed, is_dark=description.light.kind in DARK
+    )  # fmt: skip
     particles = stage_effects(description, setting)
     held = [one for one in actors if waits_to_fall(description.objects[one.object_index])]
     still = assemble([*(item.place() for item in items), *map(_hang, held)])
     return ComposedScene(
         tuple(actors), still, particles, camera_path, ground, animated_environment, lamps, names,
         tuple(dict.fromkeys([*placer.not_shown, *_list_late(description, duration_s)])),
-        (*dict.fromkeys(placer.notes), *(
-            f"the roads cross at ({x:.3g}, {y:.3g}) m"
-            for x, y, _ in (view.road.crossings if ground.has_road else ())
-        )), placer.orphans, tuple(items),
+        (*dict.fromkeys(placer.notes), *_tell_roads(description, ground, view.road)),
+        placer.orphans, tuple(items),
     )  # fmt: skip
+
+
+def _tell_roads(
+    description: SceneDescription, place: PlaceModel, road: RoadLine
+) -> Iterator[str]:  # fmt: skip
+    """Where the roads are, for who says positions in metres."""
+    camera, said = description.camera, description.place
+    places = [one.position_m for one in description.objects]
+    is_metric = any(one is not None for one in (*places, camera.position_m, said.road_m))
+    if not place.has_road:
+        return
+    if is_metric:
+        x, y = (round(value, 6) + 0.0 for value in road.offset)
+        yield (
+            f"the middle of the road goes through ({x:.3g}, {y:.3g}) m at "
+            f"{math.degrees(road.angle) % 360.0:.3g} degrees; it has two lanes of "
+            f"{place.road_m:.3g} m, and traffic keeps to the right"
+        )
+    for x, y, _ in road.crossings:
+        yield f"the roads cross at ({round(x, 6) + 0.0:.3g}, {round(y, 6) + 0.0:.3g}) m"
 
 
 def _hang(actor: Actor) -> PlacedModel:

@@ -88,6 +88,7 @@ IDS = (
     "position_m",
     "look_at_m",
     "crossing_m",
+    "road_m",
 )
 
 

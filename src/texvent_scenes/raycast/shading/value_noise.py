@@ -145,14 +145,14 @@ def _stars(x: float, y: float, z: float, pixel: float) -> float:
 
 @jit(error_model="numpy", inner=True)
 def _cloud_cover(instant: Record, direction: Colour, pixel: float, time: float) -> float:
-    """Share of the sky that cloud hides in a unit direction with z > 0."""
+    """Share of the stars that cloud hides in a unit direction; it is seen less at the horizon."""
     x, y, z = direction
     height = max(z, 0.02)
     u = 1.1 * x / height + _CLOUD_SPEED * time
     v = 1.1 * y / height + 0.4 * _CLOUD_SPEED * time
     thickness = fractal_2d(u, v, 5, 1.1 * pixel / (height * height))
-    cover = smooth((thickness + 1.7 * instant.clouds - 0.95) / 0.7)
-    return cover * smooth((z - 0.01) / 0.12)
+    closed = smooth((instant.clouds - 0.85) / 0.15)  # no gap is left of a sky that is covered
+    return smooth((thickness + 1.7 * instant.clouds + closed - 0.95) / 0.7)
 
 
 @jit(error_model="numpy", inner=True)
@@ -167,8 +167,12 @@ def sky_colour(instant: Record, direction: Colour, pixel: float, time: float) ->
     """
     x, y, z = direction
     colour = sky_gradient(instant, z)
+    cover = 0.0
+    if instant.clouds > 0.0:
+        cover = _cloud_cover(instant, direction, pixel, time)
+    clear = 1.0 - cover if instant.stars > 0.0 else 1.0
     if instant.stars > 0.0:
-        light = instant.stars * _stars(x, y, z, pixel)
+        light = clear * instant.stars * _stars(x, y, z, pixel)
         colour = along(colour, (1.0, 1.0, 1.0), light)
     facing = min(dot(direction, instant.sun), 1.0)
     if facing > 0.6:
@@ -176,10 +180,10 @@ def sky_colour(instant: Record, direction: Colour, pixel: float, time: float) ->
         disc = smooth((instant.sun_radius - angle) / max(2.0 * pixel, 0.002) + 0.5)
         glow = 0.25 * math.exp(-angle / 0.09)
         colour = along(
-            colour, triple(instant.sun_colour), 1.2 * disc + glow * (1.0 - instant.stars * 0.8)
+            colour, triple(instant.sun_colour), 1.2 * clear * disc + glow * (1.0 - instant.stars * 0.8)
         )
-    if instant.clouds > 0.0 and z > 0.0:
+    if cover > 0.0 and z > 0.0:
         white = mix(triple(instant.sky_horizon), triple(instant.ambient), 0.5)
         lit = along(white, triple(instant.sun_colour), 0.28)
-        colour = mix(colour, lit, 0.92 * _cloud_cover(instant, direction, pixel, time))
+        colour = mix(colour, lit, 0.92 * cover * smooth((z - 0.01) / 0.12))
     return colour

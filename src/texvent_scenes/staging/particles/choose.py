@@ -26,6 +26,8 @@ gives its colour to pieces."""
 _RATE_HZ, _DEEP, _MOST_SPLASH_M = 60.0, 0.3, 1.2
 """Instants per second at which a splash is looked for; depth from which on it is one, in heights of
 the body; greatest size of one, m."""
+_GLINT = 0.1
+"""Light of drops and flakes at night, as a share of that of a white surface by day."""
 FALLING = ("rain", "snow")
 """Weather that is an effect."""
 
@@ -86,12 +88,19 @@ def _make(
     source = _source(effect.kind, actor, setting)
     return [
         Emitter.of(
-            _fitted(style, effect.kind, actor), source, setting, rng,
+            _glinting(_fitted(style, effect.kind, actor), effect.kind, setting), source, setting,
+            rng,
             start_s=effect.start_s, volley=volley,
         )
         for style in words.emitters
         for volley in range(max(style.salvos, 1))
     ]  # fmt: skip
+
+
+def _glinting(style: EmitterStyle, kind: str, setting: Setting) -> EmitterStyle:
+    """Rain at night, whose drops gather light from all around."""
+    is_lit = kind in FALLING and setting.is_dark
+    return replace(style, emission=(_GLINT, _GLINT)) if is_lit else style
 
 
 def _scatter(kind: str, actor: Actor, setting: Setting) -> list[Emitter]:

@@ -32,6 +32,8 @@ class Setting:
     place: str
     duration_s: float
     seed: int
+    is_dark: bool = False
+    """Whether it is night: drops glint in the lamps around."""
 
     @property
     def away(self) -> Float64Array:

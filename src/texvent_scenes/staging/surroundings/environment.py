@@ -58,6 +58,12 @@ _NEARER, _LEAST_NEARER_M = 0.45, 2.5
 is no straight line."""
 
 
+_DRIVEN_M_S, _CAB_M, _LEVEL, _ALONG = 2.5, 3.5, 0.25, 0.45
+"""Least speed of a camera that is driven, m/s; its greatest height, m; and slope of its view; sine
+of the greatest angle of others to a road that they go along."""
+_BACK = ("out", "backward")
+
+
 @dataclass(frozen=True)
 class RoadLine:
     """Centre lines of the roads of a scene; lengths in metres, angles in radians."""
@@ -89,13 +95,56 @@ class RoadLine:
 def find_road(
     description: SceneDescription, place: PlaceModel, actors: Sequence[Actor], usual_y: float
 ) -> RoadLine:
-    """The road along the path of the first object on the ground that moves, or at `usual_y`, m."""
-    lane_m = 0.5 * place.road_m
+    """The road along the path of the first object on the ground that moves, or at `usual_y`, m.
+
+    A camera that is driven along it at a stated pose is that object; what the scene says of the
+    road comes before all.
+    """
+    lane_m, said = 0.5 * place.road_m, description.place
     has_pavement = place.ground is Ground.CITY and all(
         one.placement != "lane" for one in description.objects
     )
-    road = _straight_road(actors, usual_y, lane_m, has_pavement=has_pavement)
-    return road if road.crossings else with_crossing(road, description.place, _CROSSING_AHEAD_M)
+    road = _road_below_camera(description, actors, lane_m)
+    road = road or _straight_road(actors, usual_y, lane_m, has_pavement=has_pavement)
+    if said.road_heading_deg is not None:
+        road = replace(road, angle=math.radians(said.road_heading_deg), crossings=())
+    if said.road_m is not None:
+        road = replace(road, offset=said.road_m)
+    elif said.crossing_m is not None:
+        road = _moved_onto(road, said.crossing_m, place.road_m)
+    if road.crossings and said.crossing_m is None:
+        return road
+    return with_crossing(road, said, _CROSSING_AHEAD_M)
+
+
+def _moved_onto(road: RoadLine, point: tuple[float, float], half_m: float) -> RoadLine:
+    """The road with its middle through a point that is on it anyway."""
+    aside = float(road.across(np.array([point]))[0])
+    if abs(aside) > half_m:
+        return road
+    x, y = road.offset
+    place = (x - aside * math.sin(road.angle), y + aside * math.cos(road.angle))
+    return replace(road, offset=place)
+
+
+def _road_below_camera(
+    description: SceneDescription, actors: Sequence[Actor], lane_m: float
+) -> RoadLine | None:
+    """The road in whose right lane a camera at a stated pose is driven; None: it is not driven."""
+    camera = description.camera
+    moves = [one for one in camera.moves if one.kind == "dolly" and one.direction not in _BACK]
+    is_fast = any((one.speed_m_s or 0.0) >= _DRIVEN_M_S for one in moves)
+    if camera.position_m is None or camera.look_at_m is None or not is_fast:
+        return None
+    ahead = np.subtract(camera.look_at_m, camera.position_m)
+    if camera.position_m[2] > _CAB_M or abs(ahead[2]) > _LEVEL * math.hypot(*ahead[:2]):
+        return None
+    angle, (x, y, _) = math.atan2(ahead[1], ahead[0]), camera.position_m
+    own = RoadLine(angle, (x - lane_m * math.sin(angle), y + lane_m * math.cos(angle)))
+    drivers = [one for one in actors if one.noun.motion == "drive" and one.noun.habitat == "ground"]
+    along = [one for one in drivers if abs(math.sin(one.track.at(0.0).yaw - angle)) < _ALONG
+             and abs(float(own.across(one.middle(0.0)[None, :2])[0])) < 2.0 * lane_m]  # fmt: skip
+    return own if along or not drivers else None
 
 
 def with_crossing(road: RoadLine, said: Place, usual_m: float) -> RoadLine:
@@ -351,7 +400,7 @@ def build_environment(
         room_half_size=room_m if place.is_room else NO_ROOM_M,
         corridor_half_width=corridor_m,
         ground_surface=Texture.SNOW if is_white else place.surface,
-        has_stars=not place.is_backdrop,
+        has_stars=not place.is_backdrop and said.weather is None,
         wall_surface=place.walls,
         wall_colour=place.wall_colour,
         road_crossings=np.array(road.crossings, dtype=np.float64).reshape(-1, 3),

@@ -82,7 +82,8 @@ _SPACE = Lighting(
 )  # fmt: skip
 _DAYLIGHTS = {"room": _ROOM, "underwater": _UNDERWATER, "space": _SPACE}
 """Daylight of places that are not in the open air."""
-_DARK = ("night", "moonlight", "lamp")
+DARK = ("night", "moonlight", "lamp")
+"""Kinds of light by which a sky is dark."""
 
 
 def choose_lighting(place: PlaceModel, light: Light) -> Lighting:
@@ -90,7 +91,7 @@ def choose_lighting(place: PlaceModel, light: Light) -> Lighting:
     kind = light.kind or "day"
     if place.light == "underwater":
         return _UNDERWATER
-    if place.light == "space" or (place.light and kind not in _DARK):
+    if place.light == "space" or (place.light and kind not in DARK):
         return _DAYLIGHTS[place.light]
     if place.ground is Ground.NONE and kind == "night":
         return LIGHTINGS["moonlight"]  # no lamps up there: without a moon one sees nothing
