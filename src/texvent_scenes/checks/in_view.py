@@ -141,19 +141,10 @@ def find_unseen(
     unseen, partly, hidden = unseen | inside_one, partly | inside_one, unseen - partly
     unseen |= {one.targets[0] for one in description.relations if one.subject in hidden
                and one.kind == "wear" and not any(bodies[one.targets[0]])}  # fmt: skip
-    shares = [share * duration_s for share in _INSTANTS]
-    bare = {*find_unworn(scene, description, shares)} - unseen - partly
-    outside += [f"{description.objects[index].noun} (hardly seen)" for index in sorted(bare)]
-    unseen |= bare
-    cut = {*find_cut_subject(scene, description, cameras, times, size)} - unseen
-    outside += [f"{description.objects[index].noun} (cut off most of the clip)" for index in cut]
-    unseen, partly = unseen | cut, partly | cut
-    merged = [*find_merged(scene, description, cameras, times, size)]
-    outside += [f"{description.objects[index].noun} ({apart} of {description.objects[index].count})"
-                for index, apart in merged if index not in unseen]  # fmt: skip
+    lines, lost, cut, violations = _find_slight(scene, description, unseen, clip)
+    outside, unseen, partly = outside + lines, unseen | lost | cut, partly | cut
     seen = {number: view.at for number, view in views.items()}
-    violations = [*_list_words_of(description, unseen, partly)]
-    violations += [Violation("count", description.objects[index].count, "") for index, _ in merged]
+    violations += [*_list_words_of(description, unseen, partly)]
     violations += find_unlike(description, scene.actors, scene.missing)
     violations += _find_unrealised(scene, description, bodies, times)
     violations += find_undone(description, scene.actors, seen, times)
@@ -177,6 +168,23 @@ class _Clip(NamedTuple):
     times: Sequence[float]
     size: SensorSize
     is_camera_moving: bool
+
+
+def _find_slight(
+    scene: ComposedScene, description: SceneDescription, unseen: Collection[int], clip: _Clip
+) -> tuple[list[str], set[int], set[int], list[Violation]]:
+    """Lines on clothes, subjects at the edge and merged copies; who is lost, cut off; numbers."""
+    cameras, times, size, _ = clip
+    objects, shares = description.objects, [share * times[-1] for share in _INSTANTS]
+    bare = {*find_unworn(scene, description, shares)} - {*unseen}
+    cut = {*find_cut_subject(scene, description, cameras, times, size)} - {*unseen} - bare
+    merged = [*find_merged(scene, description, cameras, times, size)]
+    lines = [f"{objects[index].noun} (hardly seen)" for index in sorted(bare)]
+    lines += [f"{objects[index].noun} (cut off most of the clip)" for index in cut]
+    lines += [f"{objects[index].noun} ({apart} of {objects[index].count})"
+              for index, apart in merged if index not in {*unseen, *bare, *cut}]  # fmt: skip
+    counts = [Violation("count", objects[index].count, "") for index, _ in merged]
+    return lines, bare, cut, counts
 
 
 class _Judged(NamedTuple):
