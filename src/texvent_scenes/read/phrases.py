@@ -174,10 +174,8 @@ def _relate_back(draft: SceneDraft, kind: str, phrase: Phrase, subjects: Indices
         far = {one.value for one in before.all("place")} & word_set("things", "backdrops")
         draft.mark(token, "shown" if far and draft.shows(before) else "lost")
         return  # "with mountains behind it"
-    own = {
-        *subjects,
-        *draft.targets(subjects, ("wear", "hold")),
-    }  # "a man in a coat walks behind it"
+    held = draft.targets(subjects, ("wear", "hold"))  # "a man in a coat walks behind it"
+    own = {*subjects, *held}
     is_many = draft.beside(token, 1).text == "them" and draft.is_many(draft.last.earlier)
     is_own = bool(set(nearest) & own) or (is_many and not draft.is_many(nearest))
     others: Indices = subjects

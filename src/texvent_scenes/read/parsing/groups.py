@@ -281,7 +281,7 @@ class GroupReader:
             ahead += 1
         if ahead and self._token(ahead).has("noun") and self._agrees(article, first, ahead):
             return True
-        after, before = self._token(), [one.value.noun for one in self._token(-1).all("noun")]
+        after = self._token()
         is_base = {one.form for one in after.all("verb")} == {"base"} and not after.has("relation")
         is_named = is_base and article in ("a", "an")  # no verb of one: "across a car park"
         is_head = after.has("noun", "place") and not after.has("relation", "adverb")
@@ -289,13 +289,12 @@ class GroupReader:
         is_head = is_head and self._agrees(article, first) and not self._has_object()
         nouns = [one.value for one in self._token(-1).all("noun")]
         is_many = bool(nouns) and all(one.is_plural for one in nouns)  # "dogs fish", no "aircraft"
-        is_inert = bool(before) and all(one in NOUNS and not NOUNS[one].speed_m_s for one in before)
+        known = [NOUNS.get(one.noun) for one in nouns]
+        is_inert = bool(known) and all(one and not one.speed_m_s for one in known)
         led = token_at(self._tokens, first - 1)
         is_lone = is_inert and not (article or any(one.is_plural for one in nouns))
         is_lone &= led.has("verb", "relation") and not led.has("noun")  # "wears oven gloves"
-        is_lone |= self._has_verb or bool(
-            self._token(1).verbs("s")
-        )  # "with propeller guards hovers"
+        is_lone |= self._has_verb or bool(self._token(1).verbs("s"))  # "with guards hovers"
         is_verb = after.text.endswith(("ing", "ed", "ly", *(() if is_lone else ("s",))))
         is_verb |= after.has("other")
         is_word = after.is_unknown or (is_named and is_inert)  # "a chair lift"
