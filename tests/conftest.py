@@ -117,7 +117,7 @@ def choose_rows(items: list[pytest.Item]) -> set[str]:
     return chosen
 
 
-def pytest_sessionstart(session: pytest.Session) -> None:
+def pytest_collectstart() -> None:
     """Leave cycles of what is collected, nearly all of which stays, for the end of collection."""
     gc.disable()
 
