@@ -1,0 +1,83 @@
+"""Legs of a path end where their speeds, times and directions say; a turn heads where it says."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+from tests.scenes.every_row import for_every
+
+from texvent.errors import ConfigError
+from texvent_scenes.defaults import complete
+from texvent_scenes.description import to_description
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.scene_input import describe_scene
+from texvent_scenes.spec.scene import Motion, Scene, SceneObject
+from texvent_scenes.staging.idle_fields import TURNS
+from texvent_scenes.staging.placement.object_placement import ObjectPlacer
+from texvent_scenes.staging.tracks.phases import YAWS
+
+LEVELS = {"air": 1.5, "water": 0.5, "clear": 0.0}
+WAYS = ("right", "away", "left", "towards")
+GOERS = [("drone", "fly", 2.0), ("man", "walk", 1.4), ("bird", "fly", 5.0), ("dog", "run", 3.0),
+         ("ball", "slide", 1.0), ("box", "slide", 0.7)]  # fmt: skip
+
+
+def place(one, duration_s):
+    description = complete(to_description(Scene(objects=(one,))), NOUNS)
+    placer = ObjectPlacer(description, NOUNS, seed=3, duration_s=duration_s, level_m=LEVELS)
+    (actor,) = placer.place_all()
+    return actor.track
+
+
+def legs_of(kind, ways, speeds, leg_s):
+    return tuple(
+        Motion(kind, way, speed_m_s=speed, start_s=leg_s * n if n else None)
+        for n, (way, speed) in enumerate(zip(ways, speeds, strict=True))
+    )
+
+
+@for_every(itertools.product(GOERS, (0, 1, 2, 3), (1, -1), (1.0, 1.5)))
+def test_a_square_of_legs_closes_and_its_corners_are_symmetric(row):
+    (noun, kind, speed), first, step, leg_s = row
+    ways = [WAYS[(first + step * n) % 4] for n in range(4)]
+    motions = legs_of(kind, ways, [speed] * 4, leg_s)
+    track = place(SceneObject(noun, position_m=(-1.0, -1.0), motions=motions), 4.0 * leg_s)
+    x, y = track.at(4.0 * leg_s).position[:2]
+    assert (x, y) == pytest.approx((-1.0, -1.0), abs=1e-3)
+    turned = track.at(leg_s).yaw - track.at(0.0).yaw
+    assert math.remainder(turned - step * math.pi / 4.0, math.tau) == pytest.approx(0.0, abs=0.02)
+    fastest = max(track.at(t).speed_m_s for t in np.linspace(0.0, 4.0 * leg_s, 81))
+    assert fastest < 1.05 * speed
+
+
+@for_every(itertools.product(GOERS[:4], ("away", "diagonal", "towards"), (0.6, 1.0, 1.6)))
+def test_a_leg_is_its_speed_times_its_duration_long(row):
+    (noun, kind, speed), way, faster = row
+    motions = legs_of(kind, ("right", way), (speed, faster * speed), 1.5)
+    track = place(SceneObject(noun, position_m=(0.0, 0.0), motions=motions), 3.0)
+    angle = YAWS[way]
+    end = speed * 1.5 * np.array([1.0, 0.0])
+    end += faster * speed * 1.5 * np.array([math.cos(angle), math.sin(angle)])
+    np.testing.assert_allclose(track.at(3.0).position[:2], end, atol=2e-3)
+
+
+@for_every(itertools.product(("car", "van", "bus", "bicycle"), (0.0, 180.0, 90.0, 270.0, 30.0),
+                             ("towards", "away")))  # fmt: skip
+def test_a_turn_towards_or_away_heads_there_from_any_heading(row):
+    noun, heading, way = row
+    motions = (Motion("drive", speed_m_s=6.0), Motion("turn", way, speed_m_s=6.0, start_s=1.0))
+    one = SceneObject(noun, position_m=(0.0, 0.0), heading_deg=heading, motions=motions)
+    track = place(one, 6.0)
+    assert track.at(0.0).yaw == pytest.approx(math.radians(heading))
+    assert math.cos(track.at(6.0).yaw - YAWS[way]) > 0.9
+
+
+@for_every(itertools.product(("car", "man", "drone"), ("up", "down", "across", "diagonal")))
+def test_a_turn_that_goes_nowhere_is_refused(row):
+    noun, way = row
+    one = SceneObject(noun, motions=(Motion("turn", way),))
+    with pytest.raises(ConfigError, match=r"^objects\[0\]\.motions\[0\]\.direction .* a turn goes"):
+        describe_scene(Scene(objects=(one,)), NOUNS)
+    for other in TURNS[:4]:
+        describe_scene(Scene(objects=(SceneObject(noun, motions=(Motion("turn", other),)),)), NOUNS)
