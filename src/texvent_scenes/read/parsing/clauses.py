@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from texvent_scenes.models.people.outfit import can_be_worn
+from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.parsing.groups import (
     MODIFIERS,
     Group,
@@ -312,7 +313,7 @@ class _Parser(GroupReader):
     # Noun groups
 
     def _groups(self, preposition: Token = NO_TOKEN) -> tuple[Group, ...]:
-        """Groups with "and", up to a subject, no clothes: "a girl with a hat and a boy jumps"."""
+        """Groups with "and", up to a subject, no belongings: "a girl with a hat and a boy jumps"."""
         found = [self._group()]
         if preposition.text == "with" and self._token().text == ",":
             found = self._listed(found[0])
@@ -321,8 +322,9 @@ class _Parser(GroupReader):
             self._take()
             group = self._group()
             is_subject = group.article or group.is_plural
-            is_worn = any(map(can_be_worn, nouns_of([group])))
-            is_subject = is_subject and not (is_worn or self._share_verb((*found, group)))
+            small = nouns_with("in hand or on something")
+            is_kept = any(can_be_worn(one) or one in small for one in nouns_of([group]))
+            is_subject = is_subject and not (is_kept or self._share_verb((*found, group)))
             if (is_subject and self._is_verb(Clause((group,)))) or self._is_like(preposition):
                 self._at = start
                 break
