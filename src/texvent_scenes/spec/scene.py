@@ -72,7 +72,9 @@ class Motion:
     """Motion ("drive", "spin", "bounce") or activity ("wave", "play guitar"); "move" is the usual
     motion of the noun, "stand" is rest."""
     direction: Direction | None = None
-    """Direction of travel or rotation, as the camera sees it."""
+    """Direction of travel as the camera sees it. Of a turn, left and right are the driver's,
+    "towards" and "away" where it heads then. Clockwise is as seen from above, of wheels and
+    pictures as the camera sees them."""
     pace: Pace = 1.0
     """Speed as a multiple of the usual speed."""
     end_pace: Pace | None = None
@@ -185,7 +187,8 @@ class CameraMove:
     kind: MoveKind
     """Kind of move; "travel" is ego-motion along the road or through the place."""
     direction: MoveDirection | None = None
-    """Direction of the move."""
+    """Direction of the move. An orbit is clockwise as seen from above, which takes the camera to
+    the left; a roll as who stands behind the camera sees it turn."""
     pace: Pace = 1.0
     """Speed as a multiple of the usual speed."""
     phase: Annotated[int, Between(0, 100)] = 0

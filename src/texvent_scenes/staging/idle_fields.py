@@ -18,11 +18,11 @@ import numpy as np
 from texvent.errors import few, shown
 from texvent_scenes.colours import rgb_of
 from texvent_scenes.defaults import decide_motions
-from texvent_scenes.description import STANDING
-from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.description import STANDING, to_description
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.materials import in_material
 from texvent_scenes.models.nouns import MOTIONS
+from texvent_scenes.models.people.outfit import CLOTHES
 from texvent_scenes.models.places import PLACES, PlaceModel
 from texvent_scenes.models.protocol import Model, Noun, Pose
 from texvent_scenes.models.tables import nouns_with, trait_values
@@ -37,6 +37,7 @@ from texvent_scenes.spec.scene import (
     object_ids,
 )
 from texvent_scenes.staging.actors import Actor
+from texvent_scenes.staging.interactions.perform import in_hand
 from texvent_scenes.staging.tracks.choose_track import choose_track
 from texvent_scenes.staging.tracks.motion_plan import plan_motion
 from texvent_scenes.staging.tracks.phases import PATH_KINDS, fits_in_hand, rests_in_hand
@@ -272,14 +273,11 @@ def _idle_motions(where: str, one: SceneObject, body: _Body) -> Iterator[Idle]:
 
 
 def _list_held(scene: Scene, ids: Sequence[str]) -> Iterator[tuple[str, str]]:
-    """Id of each thing that is in a hand → id of whose hand it is."""
-    nouns = {id: one.noun for one, id in zip(scene.objects, ids, strict=True)}
-    for one, own in zip(scene.objects, ids, strict=True):
-        for each in one.relations:
-            if each.kind in ("hold", "wear"):
-                yield from ((to, own) for to in each.to[: None if each.kind == "wear" else 1])
-            elif each.kind == "with" and each.to and nouns.get(each.to[0]) in HAND_NOUNS:
-                yield from () if one.noun in PERSON_NOUNS | HAND_NOUNS else [(own, each.to[0])]
+    """Id of each thing that is in a hand or worn → id of who has it."""
+    for one in in_hand(to_description(scene).relations, scene.objects):
+        if one.kind in ("hold", "wear"):
+            held = one.targets if one.kind == "wear" else one.targets[:1]
+            yield from ((ids[number], ids[one.subject]) for number in held)
 
 
 def _idle_in_hand(where: str, one: SceneObject, body: _Body, holder: str) -> Iterator[Idle]:
@@ -288,8 +286,10 @@ def _idle_in_hand(where: str, one: SceneObject, body: _Body, holder: str) -> Ite
     for name in ("position_m", "height_m", "heading_deg", "placement"):
         if getattr(one, name) is not None:
             yield Idle(f"{where}.{name}", why)
+    is_clothing = one.noun in CLOTHES
     unfit = [number for number, motion in enumerate(one.motions)
-             if not fits_in_hand(motion, body.noun) and not rests_in_hand(motion, body.noun)]  # fmt: skip
+             if not rests_in_hand(motion, body.noun)
+             and (is_clothing or not fits_in_hand(motion, body.noun))]  # fmt: skip
     for number in unfit:
         kind = one.motions[number].kind
         yield Idle(

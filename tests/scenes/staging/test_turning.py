@@ -93,7 +93,7 @@ def test_a_camera_goes_round_as_seen_from_above(noun, sense):
 def test_a_camera_rolls_as_who_stands_behind_it_sees(sense):
     said = {"left": 1.0, "right": -1.0}.get(sense) or SENSES[sense]
     scene = stage(thing("tree"), camera=Camera((CameraMove("roll", sense),)))
-    point = middle(scene.actors[0], 1.0) + [1.0, 0.0, 0.0]
+    point = np.add(middle(scene.actors[0], 1.0), [1.0, 0.0, 0.0])
     angles = []
     for t in (0.8, 1.2):
         ends = project(scene.camera(t), SIZE, np.array([middle(scene.actors[0], 1.0), point]))

@@ -180,7 +180,9 @@ def sky_colour(instant: Record, direction: Colour, pixel: float, time: float) ->
         disc = smooth((instant.sun_radius - angle) / max(2.0 * pixel, 0.002) + 0.5)
         glow = 0.25 * math.exp(-angle / 0.09)
         colour = along(
-            colour, triple(instant.sun_colour), 1.2 * clear * disc + glow * (1.0 - instant.stars * 0.8)
+            colour,
+            triple(instant.sun_colour),
+            1.2 * clear * disc + glow * (1.0 - instant.stars * 0.8),
         )
     if cover > 0.0 and z > 0.0:
         white = mix(triple(instant.sky_horizon), triple(instant.ambient), 0.5)

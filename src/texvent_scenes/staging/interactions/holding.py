@@ -147,7 +147,7 @@ def _turn_of(swing: Swing, offset: Affine, time_s: float) -> Affine:
 
 
 def _in_palm(hand: Actor, thing: Actor) -> tuple[Actor, Actor]:
-    """A thing before the palm of a hand alone, by its foot or its handle; the hand turns with it."""
+    """A thing before the palm of a hand, by its foot or handle; the hand turns with it."""
     below = min(_IN_PALM * thing.model.height, _HAND_M)
     depth = 0.5 * thing.model.length if thing.model.length < _HAND_M else 0.0
     offset = along_tool(thing) if is_tool(thing) else shift(depth, 0.0, thing.foot_m - below)
@@ -193,7 +193,8 @@ def wear(subject: Actor, target: Actor) -> tuple[Actor, Actor | None]:
     turn = rotation(worn.get("yaw", 0.0), worn.get("pitch", 0.0), 0.0)
     x, y, z = scaled(worn.get("at", (0.0, 0.0, 0.0)), size_of(subject.model))
     offset = np.column_stack([turn, np.array([x, y, z + target.foot_m])])
-    return subject, carried(target, held_at(subject, worn["place"], offset), subject)
+    path = held_at(subject, worn["place"], offset, swing=_swing(target, offset))
+    return subject, carried(target, path, subject)
 
 
 def carried(target: Actor, held: Track, holder: Actor) -> Actor:

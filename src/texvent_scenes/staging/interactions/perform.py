@@ -62,7 +62,7 @@ def settle_motions(
     objects = list(description.objects)
     relations = [
         _mounted(replace(one, targets=targets), objects, nouns)
-        for one in _in_hand(description.relations, objects)
+        for one in in_hand(description.relations, objects)
         for targets in ([(t,) for t in one.targets] if one.kind == "wear" else [one.targets])
     ]
     relations += _implied_acts(objects, relations)
@@ -120,7 +120,7 @@ def _directed(said: SceneObject, direction: Direction) -> SceneObject:
     return replace(said, motions=(replace(first, direction=direction), *said.motions[1:]))
 
 
-def _in_hand(
+def in_hand(
     relations: Sequence[IndexedRelation], objects: Sequence[SceneObject]
 ) -> Iterator[IndexedRelation]:
     """A person "with" small things wears what can be worn, and holds the first of the others.
@@ -167,11 +167,13 @@ def _settle(
             walk = Motion("walk", motion.direction)
             subject = replace(subject, motions=(walk, *subject.motions[1:]))
         return subject, still
-    if kind in ("wear", "act on"):
-        return subject, still if kind == "wear" else target
-    if kind == "hold":
+    if kind == "act on":
+        return subject, target
+    if kind in ("hold", "wear"):
         held = [one for one in target.motions if fits_in_hand(one, nouns[target.noun])]
         still = replace(target, motions=() if all(map(_is_rest, held)) else tuple(held))
+    if kind == "wear":
+        return subject, still
     return subject, _smaller(still, trait_value("carried size", target.noun) or 1.0)
 
 

@@ -68,8 +68,11 @@ def test_a_motion_that_no_hand_holds_is_refused_with_what_to_do(row):
     held = SceneObject(noun, motions=(Motion(gone),))
     objects = (SceneObject(who, relations=relations), held)
     if kind == "with":
-        objects = (SceneObject(who), SceneObject(noun, motions=(Motion(gone),), relations=relations))
-    with pytest.raises(ConfigError, match=rf"^objects\[1\]\.motions\[0\]\.kind .* leave out the"):
+        objects = (
+            SceneObject(who),
+            SceneObject(noun, motions=(Motion(gone),), relations=relations),
+        )
+    with pytest.raises(ConfigError, match=r"^objects\[1\].motions\[0\]\.kind .* leave out the"):
         describe_scene(Scene(objects=objects), NOUNS)
 
 
