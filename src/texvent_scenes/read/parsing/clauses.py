@@ -313,7 +313,7 @@ class _Parser(GroupReader):
     # Noun groups
 
     def _groups(self, preposition: Token = NO_TOKEN) -> tuple[Group, ...]:
-        """Groups with "and", up to a subject, no belongings: "a girl with a hat and a boy jumps"."""
+        """Groups with "and" up to a subject, no belongings: "a girl with a hat and a boy jumps"."""
         found = [self._group()]
         if preposition.text == "with" and self._token().text == ",":
             found = self._listed(found[0])

@@ -153,9 +153,12 @@ def _in_palm(hand: Actor, thing: Actor) -> tuple[Actor, Actor]:
     offset = along_tool(thing) if is_tool(thing) else shift(depth, 0.0, thing.foot_m - below)
     swing, free = _swing(thing, offset), hand
     if swing is not None:
-        palm = np.linalg.solve(
-            _square(hand.track.at(0.0).to_world()), _square(hand.anchor("palm", 0.0))
-        )[:3]
+        palm = np.asarray(
+            np.linalg.solve(
+                _square(hand.track.at(0.0).to_world()), _square(hand.anchor("palm", 0.0))
+            )[:3],
+            dtype=np.float64,
+        )
         turn = partial(_turned_hand, free, palm, swing, offset)
         gesture = hand.track.at(0.0).activity
         hand = moving(hand, attached(hand.track, shift(0.0, 0.0, 0.0), gesture, turn))
