@@ -397,9 +397,9 @@ def _idle_place(scene: Scene, name: str) -> Iterator[Idle]:
                    f"these have: {known}")  # fmt: skip
     is_lane = [one.placement == "lane" for one in scene.objects]
     travels = any(one.kind == "travel" for one in scene.camera.moves)
-    for each in ("road_m", "road_heading_deg") if travels else ():
-        if getattr(said, each) is not None:
-            yield Idle(f"place.{each}", "travel goes along a road of its own, in its right lane; "
+    for road_field in ("road_m", "road_heading_deg") if travels else ():
+        if getattr(said, road_field) is not None:
+            yield Idle(f"place.{road_field}", "travel goes along a road of its own, in its right lane; "
                        "a dolly goes along any")  # fmt: skip
     if any(is_lane) and not (PLACES[name].has_road or travels):
         yield Idle(f"objects[{is_lane.index(True)}].placement", f"{shown(name)} has no lane")

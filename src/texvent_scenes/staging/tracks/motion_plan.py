@@ -107,6 +107,7 @@ def plan_motion(
         duration_s: length of the clip, s.
         rng: decides between left and right where nothing is said.
         start_m: height above the ground at time 0, if it is said.
+        heading_deg: heading at time 0, if it is said, degrees.
     """
     motions = [_as_it_does(noun, one, start_m or 0.0) for one in motions]
     is_tall = noun.habitat == "fixed" and model.height > _TALL * max(model.length, model.width)
