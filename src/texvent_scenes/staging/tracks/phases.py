@@ -22,7 +22,7 @@ GOING = PATH_KINDS | {"reverse"}
 STEERED = GOING | {"turn"}
 _KEYED = STEERED - PATH_KINDS | {"jump", "rise", "sink", "topple", "plunge"}
 
-_UNTIED = GOING | _KEYED | {"bounce", "fall", "throw", "orbit", "break", "blow", "topple"}
+_UNTIED = GOING | _KEYED | {"bounce", "fall", "throw", "orbit", "break", "blow", "climb"}
 """Motions of what no hand holds."""
 _ALOFT = frozenset({"float", "hover", "fly"})
 """What hangs in the air does, which in a hand is rest."""
