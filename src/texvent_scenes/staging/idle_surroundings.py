@@ -60,6 +60,8 @@ def idle_place(scene: Scene, name: str) -> Iterator[Idle]:
         known = few([other for other, place in PLACES.items() if reads(place)], MOST_NAMED)
         yield Idle(f"place.{each.name}", f"the place {shown(name)} has not {needed}; "
                    f"these have: {known}")  # fmt: skip
+    if said.is_wet and said.weather == "rain" and PLACES[name].ground in _WETTED:
+        yield Idle("place.is_wet", "rain wets the ground anyway")
     is_lane = [one.placement == "lane" for one in scene.objects]
     travels = any(one.kind == "travel" for one in scene.camera.moves)
     for road_field in ("road_m", "road_heading_deg") if travels else ():
