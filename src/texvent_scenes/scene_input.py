@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from texvent_scenes.description import Claim, SceneDescription
     from texvent_scenes.models.protocol import Noun
     from texvent_scenes.read import Reading
-    from texvent_scenes.staging.idle_fields import Idle
+    from texvent_scenes.staging.idle_surroundings import Idle
 
 _NEAR, _SHORT = 0.8, 4
 """Likeness of a misspelled word to a noun, and letters of words that are too short to judge."""

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields, replace
 from functools import lru_cache
 from itertools import islice
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -23,10 +23,8 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.materials import in_material
 from texvent_scenes.models.nouns import MOTIONS
 from texvent_scenes.models.people.outfit import CLOTHES
-from texvent_scenes.models.places import PLACES, PlaceModel
 from texvent_scenes.models.protocol import Model, Noun, Pose
 from texvent_scenes.models.tables import nouns_with, trait_values
-from texvent_scenes.rendered_scene import Ground
 from texvent_scenes.spec.data import PLACING, scene_from_data, scene_to_data, steps_of
 from texvent_scenes.spec.scene import (
     Motion,
@@ -37,6 +35,7 @@ from texvent_scenes.spec.scene import (
     object_ids,
 )
 from texvent_scenes.staging.actors import Actor
+from texvent_scenes.staging.idle_surroundings import MOST_NAMED, Idle, idle_light, idle_place
 from texvent_scenes.staging.interactions.perform import in_hand
 from texvent_scenes.staging.tracks.choose_track import choose_track
 from texvent_scenes.staging.tracks.motion_plan import plan_motion
@@ -56,7 +55,6 @@ TURNS = ("left", "right", "clockwise", "counter-clockwise", "towards", "away", "
 _SHARES = (0.0, 0.07, 0.13, 0.21, 0.29, 0.41, 0.5, 0.6, 0.71, 0.83, 0.97)
 """Instants at which bodies are compared, as shares of the time up to the last start, and after."""
 _USUAL_S = 2.0
-_MOST_NAMED = 6
 _TURNS, _SHIFTS = (
     frozenset({"direction", "pace", "rate_deg_s"}),
     frozenset({"direction", "pace", "speed_m_s"}),
@@ -77,13 +75,6 @@ DIRECTIONS_OF_MOVES: Mapping[MoveKind, tuple[MoveDirection, ...]] = {
     "travel": ("forward", "backward"), "handheld": ("all axes",),
 }  # fmt: skip
 """Kind of camera move → directions that it goes."""
-
-
-class Idle(NamedTuple):
-    """A field without effect."""
-
-    path: str
-    why: str
 
 
 @lru_cache(maxsize=128)
@@ -200,8 +191,8 @@ def list_idle(scene: Scene, decided: Scene, nouns: Mapping[str, Noun]) -> Iterat
         elif ids[number] not in bound:
             yield from _idle_motions(where, one, body)
     yield from _idle_moves(scene)
-    yield from _idle_light(scene)
-    yield from _idle_place(scene, decided.place.name or "")
+    yield from idle_light(scene)
+    yield from idle_place(scene, decided.place.name or "")
 
 
 def leave_out(scene: Scene, idle: Iterable[Idle]) -> Scene:
@@ -244,7 +235,7 @@ def _idle_looks(where: str, one: SceneObject, noun: Noun) -> Iterator[Idle]:
         has_light = noun.name in LAMPS or noun.name in nouns_with("own effect")
         has_light |= name == "blink_hz" and noun.name in nouns_with("flat pattern")
         if getattr(one, name) is not None and not has_light:
-            known = few(sorted(LAMPS), _MOST_NAMED)
+            known = few(sorted(LAMPS), MOST_NAMED)
             yield Idle(f"{where}.{name}", f"a {one.noun} has no lamp; these have: {known}")
     if one.placement is not None and one.position_m is not None:
         yield Idle(f"{where}.placement", "position_m takes its place; leave one of them out")
@@ -318,8 +309,8 @@ def _name_kinds(body: _Body, holds: Callable[[SceneObject], bool]) -> str:
              and not (body.is_held and not fits_in_hand(Motion(kind), body.noun))]  # fmt: skip
     does = (kind for kind in kinds
             if holds(SceneObject(body.noun.name, motions=(Motion(kind),))))  # fmt: skip
-    named = list(islice(does, _MOST_NAMED + 1))
-    return ", ".join([*named[:_MOST_NAMED], *["..."][: max(len(named) - _MOST_NAMED, 0)]])
+    named = list(islice(does, MOST_NAMED + 1))
+    return ", ".join([*named[:MOST_NAMED], *["..."][: max(len(named) - MOST_NAMED, 0)]])
 
 
 def _who_reads(body: _Body, one: SceneObject, motion: Motion, name: str) -> str:
@@ -357,50 +348,3 @@ def _idle_moves(scene: Scene) -> Iterator[Idle]:
     for name in ("framing", "view") if chosen == "position_m" else ("framing",) if chosen else ():
         if getattr(camera, name) is not None:
             yield Idle(f"camera.{name}", f"{chosen} decides what is in the picture")
-
-
-def _idle_light(scene: Scene) -> Iterator[Idle]:
-    if scene.light.wave != "sine" and scene.light.flicker_hz is None:
-        yield Idle("light.wave", "it is that of light that flickers; give flicker_hz")
-    for number, lamp in enumerate(scene.light.lamps):
-        if lamp.wave != "sine" and lamp.frequency_hz is None:
-            yield Idle(f"light.lamps[{number}].wave", "it is that of a lamp with a frequency; "
-                       "give frequency_hz")  # fmt: skip
-
-
-_WATER = (Ground.SEA, Ground.LAKE, Ground.RIVER, Ground.UNDERWATER)
-_WETTED = (Ground.PLAIN, Ground.ROAD, Ground.CITY)
-_OF_PLACES: Mapping[str, tuple[Callable[[PlaceModel], bool], str]] = {
-    "road": (lambda place: place.has_road, "a road"),
-    "crossing_m": (lambda place: place.has_road, "a road"),
-    "road_m": (lambda place: place.has_road, "a road"),
-    "road_heading_deg": (lambda place: place.has_road, "a road"),
-    "wave_height": (lambda place: place.ground in _WATER, "water"),
-    "sky": (lambda place: not place.is_room, "a sky"),
-    "clouds": (lambda place: not place.is_room, "a sky"),
-    "backdrops": (lambda place: not place.is_room, "a horizon"),
-    "colour": (lambda place: place.ground is not Ground.NONE, "a ground"),
-    "is_wet": (lambda place: place.ground in _WETTED, "a road or a paved ground"),
-}
-"""Field of a place → whether a place reads it, and what it needs."""
-
-
-def _idle_place(scene: Scene, name: str) -> Iterator[Idle]:
-    """Fields that change nothing in a place."""
-    said = scene.place
-    for each in fields(said):
-        reads, needed = _OF_PLACES.get(each.name, (None, ""))
-        value = getattr(said, each.name)
-        if reads is None or value in (each.default, ()) or reads(PLACES[name]):
-            continue
-        known = few([other for other, place in PLACES.items() if reads(place)], _MOST_NAMED)
-        yield Idle(f"place.{each.name}", f"the place {shown(name)} has not {needed}; "
-                   f"these have: {known}")  # fmt: skip
-    is_lane = [one.placement == "lane" for one in scene.objects]
-    travels = any(one.kind == "travel" for one in scene.camera.moves)
-    for one in ("road_m", "road_heading_deg") if travels else ():
-        if getattr(said, one) is not None:
-            yield Idle(f"place.{one}", "travel goes along a road of its own, in its right lane; "
-                       "a dolly goes along any")  # fmt: skip
-    if any(is_lane) and not (PLACES[name].has_road or travels):
-        yield Idle(f"objects[{is_lane.index(True)}].placement", f"{shown(name)} has no lane")

@@ -153,12 +153,7 @@ def _in_palm(hand: Actor, thing: Actor) -> tuple[Actor, Actor]:
     offset = along_tool(thing) if is_tool(thing) else shift(depth, 0.0, thing.foot_m - below)
     swing, free = _swing(thing, offset), hand
     if swing is not None:
-        palm = np.asarray(
-            np.linalg.solve(
-                _square(hand.track.at(0.0).to_world()), _square(hand.anchor("palm", 0.0))
-            )[:3],
-            dtype=np.float64,
-        )
+        palm = compose(_inverse(hand.track.at(0.0).to_world()), hand.anchor("palm", 0.0))
         turn = partial(_turned_hand, free, palm, swing, offset)
         gesture = hand.track.at(0.0).activity
         hand = moving(hand, attached(hand.track, shift(0.0, 0.0, 0.0), gesture, turn))
@@ -176,10 +171,6 @@ def _turned_hand(
     """[3, 4] body of a hand in the world, turned about its palm as what it holds."""
     own = compose(compose(palm, _turn_of(swing, offset, time_s)), _inverse(palm))
     return compose(hand.track.at(time_s).to_world(), own)
-
-
-def _square(axes: Affine) -> Float64Array:
-    return np.vstack([axes, [0.0, 0.0, 0.0, 1.0]])
 
 
 def _in_mouth(thing: Actor) -> Affine:

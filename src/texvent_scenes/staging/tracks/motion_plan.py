@@ -23,7 +23,6 @@ from texvent_scenes.staging.tracks.phases import (
     COMING_DOWN,
     GOING,
     PATH_KINDS,
-    SWINGS,
     YAWS,
     needs_steering,
     usual_speed,
@@ -68,7 +67,7 @@ class MotionPlan:
     @property
     def is_path(self) -> bool:
         """Whether it goes from one place to another along a straight line."""
-        is_straight = self.motion.direction not in SWINGS
+        is_straight = self.motion.direction not in ("to and fro", "up and down")
         return self.path is None and self.motion.kind in PATH_KINDS and is_straight
 
     @property
@@ -108,7 +107,7 @@ def plan_motion(
         duration_s: length of the clip, s.
         rng: decides between left and right where nothing is said.
         start_m: height above the ground at time 0, if it is said.
-        heading_deg: heading at time 0, anticlockwise from the right, if it is said.
+        heading_deg: heading at time 0, if it is said, degrees.
     """
     motions = [_as_it_does(noun, one, start_m or 0.0) for one in motions]
     is_tall = noun.habitat == "fixed" and model.height > _TALL * max(model.length, model.width)

@@ -24,7 +24,7 @@ SWINGS = frozenset({"to and fro", "up and down"})
 """Directions of what comes back."""
 _KEYED = STEERED - PATH_KINDS | {"jump", "rise", "sink", "topple", "plunge"}
 
-_UNTIED = GOING | _KEYED | {"bounce", "fall", "throw", "orbit", "break", "blow", "topple"}
+_UNTIED = GOING | _KEYED | {"bounce", "fall", "throw", "orbit", "break", "blow", "climb"}
 """Motions of what no hand holds."""
 _ALOFT = frozenset({"float", "hover", "fly"})
 """What hangs in the air does, which in a hand is rest."""
