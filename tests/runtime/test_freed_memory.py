@@ -52,3 +52,15 @@ def test_arrays_use_memory_that_was_freed_before():
     )
     # 24 MB have 5,860 pages.
     assert int(done.stdout) < 600
+
+
+@pytest.mark.parametrize("kind", ["RLIMIT_AS", "RLIMIT_DATA"])
+def test_a_soft_limit_of_the_process_bounds_what_a_run_may_use(kind):
+    soft = 3 << 30
+    code = (
+        f"import resource; _, hard = resource.getrlimit(resource.{kind})\n"
+        f"resource.setrlimit(resource.{kind}, ({soft}, hard))\n"
+        "from texvent.runtime.memory import SHARE, usable_bytes\n"
+        f"assert usable_bytes() <= SHARE * {soft}, usable_bytes()"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
