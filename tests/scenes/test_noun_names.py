@@ -10,7 +10,7 @@ ROOT = Path(texvent_scenes.__file__).parent
 OTHER_MEANINGS = {
     *("sink", "slide", "swing", "crane", "truck"),  # motions of bodies and of the camera
     # shapes and words of part lines
-    *("ball", "bar", "box", "chain", "cone", "disc", "plank", "wheel", "anchor"),
+    *("ball", "bar", "box", "chain", "cone", "disc", "plank", "wheel", "anchor", "palm"),
     *("glass", "leaf", "marble", "orange"),  # materials and colours
     *("checkerboard", "lamp", "mountain"),  # kinds of pictures, light and backdrops
     *("table", "clock"),  # a trait, the clock of a rig

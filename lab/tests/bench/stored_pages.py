@@ -18,6 +18,7 @@ OTHER = (
     "gpu",
     "images-davis346",
     "images-slider_depth",
+    "scenes",
     "speed",
     "stream",
     "street",

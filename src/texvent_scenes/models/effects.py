@@ -87,7 +87,7 @@ class EffectWords:
     size: float = 1.0
     """Its size by that of the object it comes from."""
     rise: float = 0.0
-    """How far above its object it must be in the image, by the mean size of that."""
+    """Height above its object that must be in the image, in mean sizes of that."""
     alone: Vector = (0.15, 0.0, 0.0)
     """Its size without an object, its height above what the camera looks at (0 = on the ground)
     and its distance behind that; by the distance of the camera."""

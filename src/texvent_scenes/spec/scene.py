@@ -293,7 +293,7 @@ class Place:
     road_heading_deg: Annotated[float, Between(-360.0, 360.0)] | None = None
     """Direction of the road, degrees anticlockwise from x; left out: that of its first vehicle."""
     crossing_m: tuple[Coordinate, Coordinate] | None = None
-    """Where the roads cross, at right angles, m; off the road, a point on the other one. Left out:
+    """Crossing of the roads, at right angles, m; off the road, a point on the other one. Left out:
     7 m along the road from its first vehicle, or where that turns."""
     is_empty: bool = False
     """Whether scenery and furniture are left out."""

@@ -182,7 +182,7 @@ def compose_scene(
 def _tell_roads(
     description: SceneDescription, place: PlaceModel, road: RoadLine
 ) -> Iterator[str]:  # fmt: skip
-    """Where the roads are, for who says positions in metres."""
+    """Places of the roads, for positions in metres."""
     camera, said = description.camera, description.place
     places = [one.position_m for one in description.objects]
     is_metric = any(one is not None for one in (*places, camera.position_m, said.road_m))

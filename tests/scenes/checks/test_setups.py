@@ -39,7 +39,11 @@ def test_a_first_person_view_goes_with_the_camera(text, means):
     assert "objects" not in " ".join(said.scene)
 
 
-@for_every(name for name, one in PLACES.items() if one.is_room and name != "indoor")
+BARE = ("indoor", "bedroom", "pub", "bowling alley")
+"""Rooms of which a camera that goes through may see walls alone, as its report says."""
+
+
+@for_every(name for name, one in PLACES.items() if one.is_room and name not in BARE)
 def test_a_camera_that_goes_through_a_room_sees_what_stands_in_it(name):
     for how in ("walking", "flying"):
         assert not report(f"{how} through a {name}").not_shown

@@ -28,7 +28,7 @@ BLINK_HZ = 2.0
 
 @dataclass
 class Last:
-    """What the sentence spoke of last, to which its next words refer."""
+    """Things that the sentence spoke of last, to which its next words refer."""
 
     nearest: list[int] = field(default_factory=list)
     """Objects of the last noun group."""

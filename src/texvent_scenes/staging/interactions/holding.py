@@ -41,7 +41,7 @@ _SEAT_M = 0.42
 
 
 _IN_PALM, _HAND_M = 0.35, 0.1
-"""How far up a hand alone holds a thing, as a share of its height, and at most, m."""
+"""Height at which a hand alone holds a thing, as a share of its own, and at most, m."""
 
 
 class Hold(NamedTuple):
@@ -128,7 +128,7 @@ def hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
 
 
 def _swing(thing: Actor, offset: Affine, *, is_in_arms: bool = False) -> Swing | None:
-    """What a thing does of itself in a hand, about the hand; in both arms about its middle."""
+    """Motion of a thing in a hand, about the hand; in both arms about its middle."""
     path = thing.track
     if path.is_resting and path.at(0.0).activity == "stand":
         return None

@@ -27,7 +27,7 @@ _KEYED = STEERED - PATH_KINDS | {"jump", "rise", "sink", "topple", "plunge"}
 _UNTIED = GOING | _KEYED | {"bounce", "fall", "throw", "orbit", "break", "blow", "climb"}
 """Motions of what no hand holds."""
 _ALOFT = frozenset({"float", "hover", "fly"})
-"""What hangs in the air does, which in a hand is rest."""
+"""Motions of what hangs in the air, which in a hand are rest."""
 ASTRAY = frozenset({"to and fro", "up and down", "around"})
 """Directions that lead away from a place, whatever the motion is; a board may sway to and fro."""
 

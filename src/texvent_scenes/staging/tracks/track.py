@@ -173,7 +173,7 @@ class Attachment:
     offset: Float64Array
     """[3, 4] body coordinates of what is carried, in these axes."""
     swing: Swing | None = None
-    """What it does of itself, where it is held."""
+    """Its own motion, where it is held."""
 
     def at(self, time_s: float) -> BodyState:
         """State of what is carried."""
