@@ -105,12 +105,7 @@ def find_unseen(
     cameras = [scene.camera(time_s) for time_s in times]
     views = count_pixels(scene, [one.instance for one in scene.actors], size, times)
     clip = _Clip(cameras, times, size, description.camera.is_moving)
-    related = {i for one in description.relations for i in one.targets}
-    related |= {n for n, one in enumerate(description.objects)
-                if one.noun in nouns_with("only a background")}  # fmt: skip
-    if any(one.kind == "travel" for one in description.camera.moves):  # seen from within
-        related |= {n for n, one in enumerate(description.objects)
-                    if one.noun in nouns_with("passage")}  # fmt: skip
+    related = _list_related(description)
     climbed = {i for one in description.relations for i in one.targets
                if one.kind in ("up", "down")}  # fmt: skip
     is_close = description.camera.framing == "close" and scene.actors
@@ -168,6 +163,15 @@ class _Clip(NamedTuple):
     times: Sequence[float]
     size: SensorSize
     is_camera_moving: bool
+
+
+def _list_related(description: SceneDescription) -> set[int]:
+    """Objects of which a part may be seen: targets, backgrounds, and what the camera is within."""
+    related = {i for one in description.relations for i in one.targets}
+    partial_nouns = nouns_with("only a background")
+    if any(one.kind == "travel" for one in description.camera.moves):
+        partial_nouns |= nouns_with("passage")
+    return related | {n for n, one in enumerate(description.objects) if one.noun in partial_nouns}
 
 
 def _find_slight(
@@ -370,7 +374,8 @@ def _grid_of(size: SensorSize) -> tuple[int, tuple[Float64Array, Float64Array]]:
 
 def _count_points(size: SensorSize) -> int:
     """Points of the grid."""
-    return len(_grid_of(size)[1][0]) * len(_grid_of(size)[1][1])
+    x, y = _grid_of(size)[1]
+    return len(x) * len(y)
 
 
 def _list_seen(

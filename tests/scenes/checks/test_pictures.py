@@ -20,8 +20,8 @@ TIMES_S = [0.2 * DURATION_S, 0.8 * DURATION_S]
 ROOMS = [name for name, one in PLACES.items() if one.is_room and one.scenery]
 TELLING = ("indoor", "corridor", "cave", "throne room")
 """Rooms that bare walls tell."""
-SMALL = ()
-"""Rooms of which one sees too little behind a person: pins."""
+SMALL = ("bowling alley",)
+"""Rooms told by their smallest things alone: pins."""
 
 
 def staged(text):

@@ -42,6 +42,8 @@ from texvent_scenes.staging.placement.zones import zone_of
 
 _SKY_LIFT = 0.2
 """Height of the optical axis above what matters outdoors, in half image heights."""
+_LEAST_ROOM_M = 6.5
+"""Half the side of a room that a camera goes through: its furniture stands beside the way, m."""
 _WALL_LIFT, _LOW_M, _STEEP = 0.5, 0.5, 0.4
 """Height above what matters in a room that is said, whose wall must be in view; height of a subject
 up to which that would be out of it, m; elevation up to which it may be in view, rad."""
@@ -365,7 +367,7 @@ def _keep_in_room(path: CameraTrack, shooting: _Shooting, travel: TravelPlan | N
         middle = [0.5 * path.duration_s]
         corners = corners_over(actors, middle) if actors else np.zeros((1, 3))
         reach = float(np.abs(corners[:, :2]).max())
-        path = replace(path, room_m=max(0.5 * travel.length_m + 3.5, reach + 0.8, 6.5))
+        path = replace(path, room_m=max(0.5 * travel.length_m + 3.5, reach + 0.8, _LEAST_ROOM_M))
         return _keep_in_corridor(path, shooting)
     near = [one for one in actors if objects[one.object_index].placement != "far"]
     corners = corners_over(near or actors, shooting.times) if actors else np.zeros((1, 3))

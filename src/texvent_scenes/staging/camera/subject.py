@@ -254,8 +254,8 @@ def _points_of(actors: Sequence[Actor], scope: _Scope) -> Float64Array:
                 continue
             is_cut = actor.object_index in scope.cut
             points.append(_upper_part(actor, box, "medium") if is_cut else box)
-            rise_m = scope.rises.get(actor.object_index, 0.0) * actor.mean_size_m
-            points.append(np.add(box, [0.0, 0.0, rise_m]))
+            if rise := scope.rises.get(actor.object_index):
+                points.append(np.add(box, [0.0, 0.0, rise * actor.mean_size_m]))
     return np.vstack(points)
 
 

@@ -85,7 +85,7 @@ def scatter(
             work.lay_under(rule)
         elif rule.where != "route" and rule not in beside:
             work.stand_in_view(rule)
-    if view.travel is None and telling:
+    if telling:
         work.fill_view([one for one in rules if one.noun in telling and not one.is_structure])
     return work.items
 
