@@ -174,11 +174,13 @@ def _move(description: SceneDescription, motions: Mapping[int, Motion]) -> Scene
 
 
 def _lead_companions(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
-    """Companions on foot, with whom another walks or runs: they do so too."""
+    """Companions on foot, of whom one walks or runs: the other does so too."""
     objects, led = description.objects, dict[int, Motion]()
-    pairs = ((one.subject, to) for one in description.relations if one.kind == "with"
-             for to in one.targets)  # fmt: skip
-    for subject, to in pairs:
+    said = [(one.subject, to) for one in description.relations if one.kind == "with"
+            for to in one.targets]  # fmt: skip
+    back = [(to, subject) for subject, to in said
+            if {objects[to].noun, objects[subject].noun} <= PERSON_NOUNS]  # fmt: skip
+    for subject, to in (*said, *back):
         motion = objects[subject].motion
         on_foot = all(nouns[objects[n].noun].motion == "walk" for n in (subject, to))
         if motion is not None and motion.kind in ("walk", "run") and on_foot:
