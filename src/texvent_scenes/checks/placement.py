@@ -139,8 +139,9 @@ def _list_strays(
             yield Violation("direction", "across", "crossing the road")
         elif not one.goes_across and (np.abs(feet) < half_m - _SHALLOW_M).all():
             yield Violation("zone", "", "on the road")
-    is_driving = zone_of(one.noun) == "road" and not one.track.is_resting and not line.crossings
-    if place.has_road and is_driving and (np.abs(feet) > half_m + _SHALLOW_M).mean() > 0.5:
+    is_driving = zone_of(one.noun) == "road" and not one.track.is_resting
+    off_m = line.distance(corners.mean(axis=1)) - half_m
+    if place.has_road and is_driving and (off_m > _SHALLOW_M).any():
         yield Violation("zone", "", "driving on the road: it is beside it")
     if place.has_shore and one.noun.habitat == "ground" and one.noun.speed_m_s > 0.0:
         far_m = half_m or math.inf

@@ -33,6 +33,7 @@ from texvent_scenes.staging.particles.choose import (
     stage_effects,
 )
 from texvent_scenes.staging.particles.effect import Setting
+from texvent_scenes.staging.placement.crossing_turns import part_turns
 from texvent_scenes.staging.placement.object_placement import ObjectPlacer
 from texvent_scenes.staging.placement.zones import keep_to_zones, zone_of
 from texvent_scenes.staging.surroundings.environment import (
@@ -142,6 +143,7 @@ def compose_scene(
     )
     actors = placer.place_all()
     if travel is None:
+        actors = part_turns(description, PLACES[place], actors)
         actors = keep_to_zones(description, PLACES[place], actors, duration_s)
     actors = break_up(description, actors, duration_s)
     ground = contrasting(PLACES[place], description, actors)
