@@ -49,6 +49,9 @@ _SLIM, _CENTRAL = 0.2, 0.25
 something must be below, in extents of its box."""
 _LEAST_INSTANTS = 2
 """Instants at which a fault is one."""
+_LONG, _END = 1.5, 0.35
+"""Length of a vehicle, in widths, from which on its ends need a support, not its middle; and from
+its middle to these, in lengths."""
 _CROSSING = 0.7
 """Least share of the way of one who crosses a road that leads across it."""
 _SHALLOW_M = 0.4
@@ -214,11 +217,23 @@ class _Bodies:
         return bool(((parts[:, 0] < high) & (parts[:, 1] > low)).all(axis=1).any())
 
     def _is_borne(self, number: int, at: int) -> bool:
-        """Whether another body is below the middle of its foot, or holds it."""
+        """Whether another body is below the middle of its foot, or holds it; of a train, its ends."""
         low, high = self._low[number, at], self._high[number, at]
         middle, size = 0.5 * (low + high), high - low
-        foot = np.array([*(middle - _CENTRAL * size)[:2], low[2] - _ROOM_M - _ROOM * size[2]])
-        top = np.array([*(middle + _CENTRAL * size)[:2], low[2] + 0.6 * size[2]])
+        one = self._actors[number]
+        if zone_of(one.noun) in ("road", "rails") and size[:2].max() > _LONG * size[:2].min():
+            out = _END * size * (size == size[:2].max())
+            ends = ((middle + way * out, 0.1 * size) for way in (-1.0, 1.0))
+            return all(self._is_borne_at(number, at, *each) for each in ends)
+        return self._is_borne_at(number, at, middle, size)
+
+    def _is_borne_at(
+        self, number: int, at: int, middle: Float64Array, size: Float64Array
+    ) -> bool:
+        """Whether another body is below a place of its foot, about which it is so large."""
+        low, tall = self._low[number, at], self._high[number, at, 2] - self._low[number, at, 2]
+        foot = np.array([*(middle - _CENTRAL * size)[:2], low[2] - _ROOM_M - _ROOM * tall])
+        top = np.array([*(middle + _CENTRAL * size)[:2], low[2] + 0.6 * tall])
         return any(
             self._meets(foot, top, other, at)
             for other, body in enumerate(self._actors)

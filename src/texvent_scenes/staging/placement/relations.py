@@ -29,6 +29,7 @@ from texvent_scenes.staging.placement.along_surface import (
     leap_up,
     stop_at_edge,
 )
+from texvent_scenes.staging.placement.approaches import lead_over
 from texvent_scenes.staging.placement.containers import (
     depth_in,
     go_inside,
@@ -293,6 +294,8 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
         is_across = kind == "lie" and body.width > body.length
         yaw = target.plan.yaw + 0.5 * math.pi * is_across
         group.plan = replace(group.plan, yaw=yaw, gesture=kind)
+    elif group.plan.is_path and target.noun.name in nouns_with("has approaches"):
+        lead_over(group, target, support)
     elif zone_of(group.noun) == "road" and target.noun.name in nouns_with("way"):
         group.plan = replace(group.plan, yaw=target.plan.yaw)  # along a bridge, parked too
     group.fit()
