@@ -39,6 +39,8 @@ _ROCKING = 0.5
 _IN_WATER = ("swim", "surf", "plunge", *_AFLOAT)
 _DARK_EFFECTS = frozenset({"fireworks", "fireflies"})
 _PLACES_OF_TRAVEL = {"drive": "road", "cycle": "road", "sail": "sea", "swim": "underwater"}
+_BORNE = ("on", "in", "ride", "under", "above")
+"""Relations of what something else keeps off the ground."""
 _NO_GROUND = ("sky", "space", "underwater")
 _FAST_FLYER_M_S = 9.0
 """Speed above which what flies is shown in the sky, far from the ground."""
@@ -450,17 +452,35 @@ def _choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> s
     dives = dives and bool(members) and "jump" not in kinds
     if dives and said.name in (None, "sea", "lake", "river"):
         return "underwater"
-    if said.name == "sea" and any(noun.habitat == "ground" for noun in members):
-        return "sea" if kinds.intersection((*_IN_WATER, "hover", "float")) else "beach"
+    if said.name == "sea":
+        return "beach" if _stands_ashore(description, nouns) else "sea"
     if said.name == "sky" and any(noun.habitat == "fixed" for noun in members):
         return "grass"  # "a kite in the sky over a hill"
     travel = (one.means or "" for one in description.camera.moves if one.kind == "travel")
     of_travel = [_PLACES_OF_TRAVEL[means] for means in travel if means in _PLACES_OF_TRAVEL]
     if said.name is None and not of_travel and (said.has_snow or said.weather == "snow"):
         return "snow"
-    if said.name is None and said.wave_height > Place.wave_height:
-        return "sea"
-    return said.name or (of_travel[0] if of_travel else usual)
+    if said.name is None and not of_travel:
+        usual = "sea" if said.wave_height > Place.wave_height else usual
+        return "beach" if usual == "sea" and _stands_ashore(description, nouns) else usual
+    return said.name or of_travel[0]
+
+
+def _stands_ashore(description: SceneDescription, nouns: Mapping[str, Noun]) -> bool:
+    """Whether something of the ground is neither in water nor on or in something else."""
+    borne = {one.subject for one in description.relations if one.kind in (*_BORNE, *ACTED)}
+    borne |= {n for one in description.relations if one.kind in _AT_HAND for n in one.targets}
+    wet = {*_IN_WATER, "hover", "float", "fly", "rise", "fall", "sink", "throw"}
+    return any(
+        _is_of_land(nouns[one.noun]) and n not in borne
+        and not any(motion.kind in wet for motion in one.motions)
+        for n, one in enumerate(description.objects)
+    )  # fmt: skip
+
+
+def _is_of_land(noun: Noun) -> bool:
+    """Whether it stands on land: on feet or wheels, or as a sandcastle does."""
+    return noun.habitat == "ground" or (trait_value("usual place", noun.name) == "beach")
 
 
 def _swims(noun: Noun) -> bool:

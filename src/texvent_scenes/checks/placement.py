@@ -87,6 +87,9 @@ def find_misplaced(
                        for each in description.relations)  # fmt: skip
         if is_stranded(one, place) and bodies.is_alone(number) and not bodies.is_bound(number):
             lost.append(Violation("zone", "", "on land"))
+        is_dry = place.ground is Ground.SEA and one.noun.habitat == "ground"
+        if is_dry and bodies.needs_support(number) and bodies.is_alone(number):
+            lost.append(Violation("zone", "", "on land: it is on the water"))
         if not (lost or is_free) and bodies.needs_support(number):
             lost += _list_strays(one, place, line, half_m, times) if bodies.is_alone(number) else []
         if one.noun.name in nouns_with("hangs from a ceiling") and not place.is_room:

@@ -154,6 +154,8 @@ def _relate_all(
     draft: SceneDraft, token: Token, kind: str, subjects: Indices, targets: Indices
 ) -> None:
     """Apply a preposition to all that it is said of."""
+    if token.text in word_set("things", "led_along") and draft.names(targets) <= nouns_with("way"):
+        kind = "on"  # "walks along a pier"
     if handled := hand_over(draft, token, kind, subjects, targets):
         draft.mark(token, handled)
         return
