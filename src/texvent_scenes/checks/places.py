@@ -15,6 +15,7 @@ from texvent_scenes.description import SceneDescription
 from texvent_scenes.raycast.ground_truth import visible_instances
 from texvent_scenes.rendered_scene import Float64Array, Ground, Texture
 from texvent_scenes.spec.scene import Place
+from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.compose import ComposedScene
 
 _SIZE, _FAR_M = SensorSize(40, 30), 1e4
@@ -30,6 +31,11 @@ _MOST_FAR = 0.4
 """Share of the image's height up to which something may be in the distance."""
 
 
+_FINE_SIZE, _POINTS, _AROUND = SensorSize(160, 120), 15, 0.25
+"""Image and points to a side at which it is looked around a body, and how far around it, in its
+extents in the image."""
+_LEAST_AROUND, _MOSTLY_SKY = 0.4, 0.8
+"""Least share of these points in the image; share of them that are sky, and of the instants."""
 _CLEAR_M, MOST_FOG = 150.0, 2.5
 """Least distance of sight in which the horizon is seen, m; distance, in those of sight, up to which
 fog leaves something of a body or a ground."""
@@ -73,6 +79,27 @@ def find_unseen_place(
     has_ground &= is_bare and bool(said.name) and not scene.place.is_backdrop
     if has_ground and not any(_share_of_ground(scene, *one) >= _LEAST_SHARE for one in instants):
         yield Violation("place", str(said.name), f"the {said.name}: its ground is out of view")
+
+
+def is_before_sky(scene: ComposedScene, one: Actor, times: Sequence[float]) -> bool:
+    """Whether most that is seen around a body is sky, at most of the instants that show it."""
+    found = []
+    for time_s in times:
+        seen = project(scene.camera(time_s), _FINE_SIZE, one.corners(time_s))
+        (left, top), (right, low) = seen[:, :2].min(axis=0), seen[:, :2].max(axis=0)
+        is_aloft = one.noun.habitat == "air"
+        low = low if is_aloft else 0.5 * (top + low)  # its foot is on the ground
+        room = _AROUND * max(right - left, low - top)
+        x, y = np.meshgrid(np.linspace(left - room, right + room, _POINTS),
+                           np.linspace(top - room, low + room * is_aloft, _POINTS))  # fmt: skip
+        points = np.stack([x, y], axis=-1).reshape(-1, 2)
+        is_inside = ((points >= 0.0) & (points <= [_FINE_SIZE.width, _FINE_SIZE.height])).all(axis=1)
+        if seen[:, 2].min() <= 0.0 or is_inside.mean() < _LEAST_AROUND:
+            continue
+        depth, instance = visible_instances(scene, time_s, _FINE_SIZE, points[is_inside])
+        others = depth[instance != one.instance]
+        found.append(bool(len(others)) and float(np.isinf(others).mean()) >= _MOSTLY_SKY)
+    return bool(found) and sum(found) >= _MOSTLY_SKY * len(found)
 
 
 def _is_mostly_inside(points: Float64Array, camera: PosedCamera) -> bool:

@@ -25,6 +25,7 @@ from texvent_scenes.read.prepositions import (
     is_standpoint,
     keep_distance,
     names_formation,
+    names_sky,
 )
 from texvent_scenes.read.relations import hand_over, relate_one
 from texvent_scenes.read.things import name_group
@@ -116,6 +117,9 @@ def apply_phrase(draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: In
         return []
     if dress(draft, phrase, subjects) or names_formation(draft, phrase, subjects):
         return []
+    if names_sky(phrase):
+        draft.before_sky += subjects
+        draft.claim(token, "sky behind", "", subjects)
     targets = list[int]()
     owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"
     for group in phrase.groups:
