@@ -39,6 +39,8 @@ _ROCKING = 0.5
 _IN_WATER = ("swim", "surf", "plunge", *_AFLOAT)
 _DARK_EFFECTS = frozenset({"fireworks", "fireflies"})
 _PLACES_OF_TRAVEL = {"drive": "road", "cycle": "road", "sail": "sea", "swim": "underwater"}
+_STRUCK_FAR = 5.0
+"""Size of lightning that strikes far off."""
 _BORNE = ("on", "in", "ride", "under", "above")
 """Relations of what something else keeps off the ground."""
 _NO_GROUND = ("sky", "space", "underwater")
@@ -52,7 +54,7 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     What lives in the air or in water moves unless it is said to rest. When nothing moves, the
     first object that can move does what it usually does; when none can, the camera sways.
     """
-    description = _rest(_set_down(_set_far(_ground(description))), nouns)
+    description = _rest(_set_down(_strike_far(_set_far(_ground(description)))), nouns)
     objects = tuple(
         replace(one, motions=decide_motions(one.motions, nouns[one.noun]))
         for one in description.objects
@@ -199,6 +201,20 @@ def _set_far(description: SceneDescription) -> SceneDescription:
         return description
     far = (n for n, one in enumerate(objects) if one.noun in towering and one.placement is None)
     return _change(description, {n: replace(objects[n], placement="far") for n in {*far} - related})
+
+
+def _strike_far(description: SceneDescription) -> SceneDescription:
+    """Lightning strikes far off, from clouds, unless the scene says what it strikes or how large."""
+    related = {n for one in description.relations for n in (one.subject, *one.targets)
+               if one.kind != "above"}  # fmt: skip
+    new = {
+        n: replace(one, size=_STRUCK_FAR, placement=one.placement or (
+            "far" if len(description.objects) > one.count else None))
+        for n, one in enumerate(description.objects)
+        if one.noun in nouns_with("out of clouds") and n not in related and one.size == 1.0
+        and one.position_m is None
+    }  # fmt: skip
+    return _change(description, new)
 
 
 def decide_motions(motions: Sequence[Motion], noun: Noun) -> tuple[Motion, ...]:

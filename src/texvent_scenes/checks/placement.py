@@ -230,9 +230,7 @@ class _Bodies:
             return all(self._is_borne_at(number, at, *each) for each in ends)
         return self._is_borne_at(number, at, middle, size)
 
-    def _is_borne_at(
-        self, number: int, at: int, middle: Float64Array, size: Float64Array
-    ) -> bool:
+    def _is_borne_at(self, number: int, at: int, middle: Float64Array, size: Float64Array) -> bool:
         """Whether another body is below a place of its foot, about which it is so large."""
         low, tall = self._low[number, at], self._high[number, at, 2] - self._low[number, at, 2]
         foot = np.array([*(middle - _CENTRAL * size)[:2], low[2] - _ROOM_M - _ROOM * tall])

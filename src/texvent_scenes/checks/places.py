@@ -13,6 +13,8 @@ from texvent_scenes.checks.relations import Violation
 from texvent_scenes.checks.water import wet_share
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.raycast.ground_truth import visible_instances
+from texvent_scenes.models.places import PLACES, SEEN_FROM_AFAR
+from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.rendered_scene import Float64Array, Ground, Texture
 from texvent_scenes.spec.scene import Place
 from texvent_scenes.staging.actors import Actor
@@ -31,6 +33,8 @@ _MOST_FAR = 0.4
 """Share of the image's height up to which something may be in the distance."""
 
 
+_LEAST_BACKDROP = 0.004
+"""Least share of an image that a backdrop takes."""
 _FINE_SIZE, _POINTS, _AROUND = SensorSize(160, 120), 15, 0.25
 """Image and points to a side at which it is looked around a body, and how far around it, in its
 extents in the image."""
@@ -56,7 +60,10 @@ def find_unseen_place(
     """
     cameras = [scene.camera(time_s) for time_s in times]
     is_veiled = all(scene.environment(time_s).fog_distance < _CLEAR_M for time_s in times)
-    for one in said.backdrops if is_veiled or not any(map(has_horizon, cameras)) else ():
+    is_lost = is_veiled or not any(map(has_horizon, cameras))
+    for one in said.backdrops:
+        if not is_lost and _shows_backdrop(scene, one, cameras):
+            continue
         yield Violation("backdrops", "", f"the {one} in the distance")
         yield Violation("place", one, "")
     crossings = scene.animated_environment.base.road_crossings
@@ -81,6 +88,14 @@ def find_unseen_place(
         yield Violation("place", str(said.name), f"the {said.name}: its ground is out of view")
 
 
+def _shows_backdrop(scene: ComposedScene, name: str, cameras: Sequence[PosedCamera]) -> bool:
+    """Whether enough of what tells a backdrop is in the image."""
+    rules = PLACES[SEEN_FROM_AFAR.get(name, name)].scenery
+    nouns = {one.noun for one in rules if one.where == "far"} or {one.noun for one in rules}
+    own = [one for one in scene.scenery if one.rule.noun in nouns]
+    return any(sum(one.share_of(camera) for one in own) >= _LEAST_BACKDROP for camera in cameras)
+
+
 def is_before_sky(scene: ComposedScene, one: Actor, times: Sequence[float]) -> bool:
     """Whether most that is seen around a body is sky, at most of the instants that show it."""
     found = []
@@ -93,7 +108,9 @@ def is_before_sky(scene: ComposedScene, one: Actor, times: Sequence[float]) -> b
         x, y = np.meshgrid(np.linspace(left - room, right + room, _POINTS),
                            np.linspace(top - room, low + room * is_aloft, _POINTS))  # fmt: skip
         points = np.stack([x, y], axis=-1).reshape(-1, 2)
-        is_inside = ((points >= 0.0) & (points <= [_FINE_SIZE.width, _FINE_SIZE.height])).all(axis=1)
+        is_inside = ((points >= 0.0) & (points <= [_FINE_SIZE.width, _FINE_SIZE.height])).all(
+            axis=1
+        )
         if seen[:, 2].min() <= 0.0 or is_inside.mean() < _LEAST_AROUND:
             continue
         depth, instance = visible_instances(scene, time_s, _FINE_SIZE, points[is_inside])
@@ -114,7 +131,8 @@ def find_near(
     """Things that are said to be in the distance, and are large in the image all the time."""
     for index, said in enumerate(description.objects):
         own = [one for one in scene.actors if one.object_index == index]
-        if own and said.placement == "far" and not any(
+        is_tall = said.noun in nouns_with("out of clouds")
+        if own and said.placement == "far" and not is_tall and not any(
             _share_of_image(one.corners(time_s), camera) <= _MOST_FAR
             for one in own for time_s, camera in zip(times, cameras, strict=True)
         ):  # fmt: skip

@@ -62,6 +62,7 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
     _bring_home(draft)
     _limit_counts(draft)
     _look_up(draft)
+    _bring_weather(draft)
     fates: dict[str, str] = {}
     for token, after in zip(draft.tokens, (*draft.tokens[1:], NO_TOKEN), strict=False):
         is_open = token.is_sign or token.is_grammar
@@ -97,6 +98,15 @@ def _look_up(draft: SceneDraft) -> None:
         draft.parts["place"]["name"] = "sky"
     elif not draft.moves:
         draft.parts["camera"].setdefault("view", "low")
+
+
+def _bring_weather(draft: SceneDraft) -> None:
+    """Add the weather that a word brings: rain of a thunderstorm that is not dry."""
+    for weather, storms in word_table("storms").items():
+        for token in draft.tokens:
+            is_dry = draft.beside(token, -1).text == "dry"
+            if token.text in storms and draft.shows(token) and not is_dry:
+                draft.parts["place"].setdefault("weather", weather)
 
 
 _TIES = ("verb", "pose", "adverb", "relation", "shot", "other")

@@ -16,7 +16,7 @@ from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.materials import Material
 from texvent_scenes.models.nouns import AFLOAT, NOUNS
-from texvent_scenes.models.places import PLACES, PlaceModel, list_telling
+from texvent_scenes.models.places import PLACES, SEEN_FROM_AFAR, PlaceModel, list_telling
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.shapes import rod
 from texvent_scenes.models.tables import nouns_with
@@ -281,7 +281,7 @@ def _scatter_all(
         rails = (rule for rule in PLACES["railway"].scenery if rule.is_structure)
         rules.extend(rails if is_outside and PLACES[place].ground is not Ground.NONE else ())
     for backdrop in surroundings.backdrops:
-        own = PLACES[backdrop].scenery
+        own = PLACES[SEEN_FROM_AFAR.get(backdrop, backdrop)].scenery
         far = [rule for rule in own if rule.where == "far"]
         # What stands before the mountains on land would stand in the sea.
         rules.extend(far if far and PLACES[place].ground is Ground.SEA else own)
