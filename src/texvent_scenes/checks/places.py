@@ -48,7 +48,8 @@ _WIDE = 2.0
 
 
 def find_unseen_place(
-    scene: ComposedScene, said: Place, *, is_bare: bool, times: Sequence[float]
+    scene: ComposedScene, said: Place, *, is_bare: bool, times: Sequence[float],
+    names_sky: bool = False,
 ) -> Iterator[Violation]:
     """Scenery at the horizon while that is above the image, and a place of which nothing is seen.
 
@@ -57,6 +58,7 @@ def find_unseen_place(
         said: what is said of its place.
         is_bare: whether the place is said, and its scenery takes no room in the image.
         times: instants, s.
+        names_sky: whether the sky is named.
     """
     cameras = [scene.camera(time_s) for time_s in times]
     is_veiled = all(scene.environment(time_s).fog_distance < _CLEAR_M for time_s in times)
@@ -74,9 +76,11 @@ def find_unseen_place(
     if wide_m is not None and wide_m > _WIDE * scene.place.corridor_m:
         yield Violation("place", str(said.name), f"the {said.name}: it is as wide as a room")
     instants = [*zip(times, cameras, strict=True)]
-    if said.clouds and not any(_share_of_sky(scene, *one) >= _LEAST_SKY for one in instants):
-        yield Violation("clouds", "", "clouds: the sky is out of view")
-        yield Violation("place", "sky", "")
+    is_open = not (scene.place.is_room or scene.place.is_backdrop) and (said.clouds or names_sky)
+    if is_open and not any(_share_of_sky(scene, *one) >= _LEAST_SKY for one in instants):
+        if said.clouds:
+            yield Violation("clouds", "", "clouds: the sky is out of view")
+        yield Violation("place", "sky", "" if said.clouds else "the sky: it is out of view")
     if scene.place.has_shore and said.name and not any(_has_shore(scene, *one) for one in instants):
         kind = "water" if _has_water_name(scene) else "land"
         yield Violation("place", str(said.name), f"the {said.name}: its {kind} is out of view")
