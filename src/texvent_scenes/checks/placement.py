@@ -85,11 +85,7 @@ def find_misplaced(
         is_free |= any(one.object_index in (each.subject, *each.targets) if each.kind in WAYS
                        else each.subject == one.object_index and each.kind == "between"
                        for each in description.relations)  # fmt: skip
-        if is_stranded(one, place) and bodies.is_alone(number) and not bodies.is_bound(number):
-            lost.append(Violation("zone", "", "on land"))
-        is_dry = place.ground is Ground.SEA and one.noun.habitat == "ground"
-        if is_dry and bodies.needs_support(number) and bodies.is_alone(number):
-            lost.append(Violation("zone", "", "on land: it is on the water"))
+        lost += [*_list_wrong_element(number, one, place, bodies)]
         if not (lost or is_free) and bodies.needs_support(number):
             lost += _list_strays(one, place, line, half_m, times) if bodies.is_alone(number) else []
         if one.noun.name in nouns_with("hangs from a ceiling") and not place.is_room:
@@ -104,6 +100,17 @@ def find_misplaced(
         last = (description.objects[one.object_index].motions or (STANDING,))[-1]
         if last.kind in _LAID and not _is_laid(one, last.kind, times):
             yield Violation("motion", last.kind, f"the {one.noun.name} on its side")
+
+
+def _list_wrong_element(
+    number: int, one: Actor, place: PlaceModel, bodies: _Bodies
+) -> Iterator[Violation]:
+    """Faults of what floats on land, and of what stands on water."""
+    if is_stranded(one, place) and bodies.is_alone(number) and not bodies.is_bound(number):
+        yield Violation("zone", "", "on land")
+    is_dry = place.ground is Ground.SEA and one.noun.habitat == "ground"
+    if is_dry and bodies.needs_support(number) and bodies.is_alone(number):
+        yield Violation("zone", "", "on land: it is on the water")
 
 
 def _is_laid(one: Actor, kind: str, times: Sequence[float]) -> bool:
@@ -220,7 +227,7 @@ class _Bodies:
         return bool(((parts[:, 0] < high) & (parts[:, 1] > low)).all(axis=1).any())
 
     def _is_borne(self, number: int, at: int) -> bool:
-        """Whether another body is below the middle of its foot, or holds it; of a train, its ends."""
+        """Whether another body is below the middle of its foot, of a train below its ends."""
         low, high = self._low[number, at], self._high[number, at]
         middle, size = 0.5 * (low + high), high - low
         one = self._actors[number]

@@ -12,9 +12,9 @@ from texvent_scenes.checks.body_boxes import is_any_inside
 from texvent_scenes.checks.relations import Violation
 from texvent_scenes.checks.water import wet_share
 from texvent_scenes.description import SceneDescription
-from texvent_scenes.raycast.ground_truth import visible_instances
 from texvent_scenes.models.places import PLACES, SEEN_FROM_AFAR
 from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.raycast.ground_truth import visible_instances
 from texvent_scenes.rendered_scene import Float64Array, Ground, Texture
 from texvent_scenes.spec.scene import Place
 from texvent_scenes.staging.actors import Actor
@@ -48,7 +48,11 @@ _WIDE = 2.0
 
 
 def find_unseen_place(
-    scene: ComposedScene, said: Place, *, is_bare: bool, times: Sequence[float],
+    scene: ComposedScene,
+    said: Place,
+    *,
+    is_bare: bool,
+    times: Sequence[float],
     names_sky: bool = False,
 ) -> Iterator[Violation]:
     """Scenery at the horizon while that is above the image, and a place of which nothing is seen.

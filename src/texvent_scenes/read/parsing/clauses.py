@@ -38,8 +38,8 @@ class Clause:
     """Whether its object is a pronoun: "overtakes them"."""
     about: str = ""
     """Subject that is not named: "camera"; that of the clause before, "same", "meanwhile" or "then"
-    (later); "nearest", its last group; "company", either: "a boat with dolphins jumping"; "led", its
-    objects: "watches a dog jump". "where": they are by its last group."""
+    (later); "nearest", its last group; "company", either: "a boat with dolphins jumping"; "led",
+    its objects: "watches a dog jump". "where": they are by its last group."""
 
     @property
     def is_of_effect(self) -> bool:
@@ -179,7 +179,7 @@ class _Parser(GroupReader):
         return Clause(about="meanwhile") if is_next else None
 
     def _begin_led(self, clause: Clause) -> Clause | None:
-        """Clause of what somebody does who is taught, helped or watched: "teaches a dog to jump"."""
+        """Clause of what one does who is taught, helped or watched: "teaches a dog to jump"."""
         last = clause.objects[-1].head if clause.objects and not clause.after else None
         if clause.verb is None or last is None or last is not self._token(-1):
             return None

@@ -83,10 +83,10 @@ def _see_as_operator(token: Token, tokens: Sequence[Token]) -> Token:
     ):
         return token
     is_aerial = any(
-        ("camera", "view", "aerial") == one.value for each in tokens for one in each.all("scene")
+        one.value == ("camera", "view", "aerial") for each in tokens for one in each.all("scene")
     )
     is_aerial |= any(
-        "travel forward fly" == one.value for each in tokens for one in each.all("shot")
+        one.value == "travel forward fly" for each in tokens for one in each.all("shot")
     )
     verbs = [one for each in after[:2] for one in each.all("verb")]
     moves = {one.value.kind for one in verbs if one.value.who == "camera"}
