@@ -117,9 +117,7 @@ def apply_phrase(draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: In
         return []
     if dress(draft, phrase, subjects) or names_formation(draft, phrase, subjects):
         return []
-    if names_sky(phrase):
-        draft.before_sky += subjects
-        draft.claim(token, "sky behind", "", subjects)
+    _look_at_sky(draft, phrase, subjects)
     targets = list[int]()
     owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"
     for group in phrase.groups:
@@ -147,6 +145,13 @@ def apply_phrase(draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: In
     if is_lone and any(map(draft.shows, words_of(phrase.groups))):
         draft.show(token)
     return targets
+
+
+def _look_at_sky(draft: SceneDraft, phrase: Phrase, subjects: Indices) -> None:
+    """See subjects before nothing but the sky, if a phrase says so: "against the sunset"."""
+    if names_sky(phrase):
+        draft.before_sky += subjects
+        draft.claim(phrase.preposition, "sky behind", "", subjects)
 
 
 def _is_spout(draft: SceneDraft, targets: Indices) -> bool:

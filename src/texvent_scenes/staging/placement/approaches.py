@@ -105,6 +105,6 @@ def _slope(
     top: tuple[float, float, float], run: tuple[float, float], across: tuple[float, float, float]
 ) -> ModelPart:
     """A slope of earth from an edge down to the ground."""
-    x, y, z = top
+    x, y, _ = top
     return plank(_EARTH, top, (x + run[0], y + run[1], 0.0), chord=across,
                  thickness=(0.0, 0.0, 0.3))  # fmt: skip
