@@ -61,6 +61,8 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
     _turn_marks(draft)
     _bring_home(draft)
     _limit_counts(draft)
+    _look_up(draft)
+    _bring_weather(draft)
     fates: dict[str, str] = {}
     for token, after in zip(draft.tokens, (*draft.tokens[1:], NO_TOKEN), strict=False):
         is_open = token.is_sign or token.is_grammar
@@ -85,6 +87,26 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
         claims=tuple(_list_claims(draft)),
         dependences=tuple(_list_dependences(draft, lost)),
     )
+
+
+def _look_up(draft: SceneDraft) -> None:
+    """Show those whom one sees against the sky in the open sky, or from below."""
+    if not draft.before_sky:
+        return
+    is_free = all(draft.noun(n).habitat == "air" for n in range(len(draft.things)))
+    if is_free and "name" not in draft.parts["place"]:
+        draft.parts["place"]["name"] = "sky"
+    elif not draft.moves:
+        draft.parts["camera"].setdefault("view", "low")
+
+
+def _bring_weather(draft: SceneDraft) -> None:
+    """Add the weather that a word brings: rain of a thunderstorm that is not dry."""
+    for weather, storms in word_table("storms").items():
+        for token in draft.tokens:
+            is_dry = draft.beside(token, -1).text == "dry"
+            if token.text in storms and draft.shows(token) and not is_dry:
+                draft.parts["place"].setdefault("weather", weather)
 
 
 _TIES = ("verb", "pose", "adverb", "relation", "shot", "other")

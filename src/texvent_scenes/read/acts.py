@@ -13,6 +13,7 @@ from texvent_scenes.models.activities import (
     TIMED,
     is_mutual,
 )
+from texvent_scenes.models.anchors import takes_in
 from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.tables import nouns_with, trait_values
 from texvent_scenes.read.draft.abilities import Indices
@@ -41,6 +42,8 @@ def perform(
     if act is None or (has_object and not objects and act.who in ("plain", "body")):
         return None  # what it is done to is not known
     draft.show(verb)
+    if act.aims:
+        return _send(draft, act, verb, subjects, objects)
     if act.brings not in ("", EGO) and not objects:
         objects = [draft.add(act.brings)]
     if act.end_pace == 0.0 and act.kind == "stand" and can_arrive(draft, subjects):
@@ -62,12 +65,36 @@ def perform(
     return list(objects if act.object and objects else subjects)
 
 
+def _send(
+    draft: SceneDraft, act: VerbSense, verb: Token, subjects: Indices, objects: Indices
+) -> list[int]:
+    """Let a ball be sent to where it counts: "takes a penalty", "shoots and scores"."""
+    for index in subjects:
+        sent = draft.targets([index], [*SENT]) or list(objects)
+        if not draft.targets([index], [*SENT]):
+            sent = sent or draft.find(_KICKED)[:1] or [draft.add(act.brings)]
+            draft.relate(index, act.relation or "", sent)
+        ball = draft.things[sent[0]]["noun"]
+        goals = [n for n in draft.targets([index], ["towards", "into"])
+                 if takes_in(draft.things[n]["noun"])]  # fmt: skip
+        if not goals:
+            noun = word_table("scored_in").get(ball, act.aims)
+            goals = draft.find([noun])[:1] or [draft.add(noun)]
+            draft.relate(index, "towards", goals)
+        is_scored = verb.text.split()[0] in word_set("things", "scoring")
+        draft.claim(verb, "taken in", "", sent if is_scored else [], goals)
+    return list(subjects)
+
+
 def _relate_act(draft: SceneDraft, kind: str, verb: Token, index: int, objects: Indices) -> None:
     """Relate who acts to what the act is about, on a way that the staged scene holds."""
     who = ridden_by(draft, index, kind)
     about = draft.names(objects)
     if kind == "follow" and about & nouns_with("runs on"):
         kind = "past"  # "follows a pipe"
+    is_shot = verb.text.split()[0] in word_set("things", "shooting")
+    if kind == "throw" and is_shot and about == {"football"}:
+        kind = "kick"
     if kind == "lead":
         return lead_on(draft, verb, index, objects)
     if kind == "load":

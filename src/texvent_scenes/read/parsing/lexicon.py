@@ -84,6 +84,8 @@ class VerbSense:
     """Motion of its object."""
     brings: str = ""
     """Noun of the object that it needs not say: "kicks a penalty"."""
+    aims: str = ""
+    """Noun of what it sends that to: "scores"."""
     is_near: bool = False
     """Whether it is reported as shown by another one."""
 

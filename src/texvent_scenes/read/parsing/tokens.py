@@ -42,7 +42,8 @@ _NUMBER = (
 )
 _WORD = re.compile(_NUMBER + r"|[^\W\d_]+(?:['’][^\W\d_]+)*|[^\W_]|[.,;:!?/()]")
 _OWNER = re.compile(r"['’]s?$")
-_GRAMMAR = ("articles", "pronouns", "conjunctions", "relatives", "style", "purpose", "camera")
+_GRAMMAR = ("articles", "pronouns", "conjunctions", "relatives", "style", "purpose", "camera",
+            "infinitive")  # fmt: skip
 """Senses of words that a report does not list unless they are lost or shown."""
 _MIXED = re.compile("(?<=[0-9])(?=[¼-¾⅐-⅞])")
 """Between "1" and "½", which NFKC would join to 11/2."""
