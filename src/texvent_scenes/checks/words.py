@@ -14,6 +14,7 @@ import numpy as np
 
 from texvent.sensor import SensorSize
 from texvent_scenes.checks.acts import (
+    begins,
     bounces,
     breaks,
     changes_pace,
@@ -76,6 +77,7 @@ _DONE = (
     "move",
     "tip",
     "turn",
+    "begin",
 )
 """Length of a clip in which motions get so far that they are judged, s; claims of read motions."""
 _OF_CAMERA = (SEEN, "circle", "camera", "macro")
@@ -284,7 +286,7 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "reverse": goes_back, "fall": falls, "water": _is_in_water, "descend": descends,
     "land": lands, "aside": goes_aside, "along": goes_along,
     "grip": handles_by_hand, "camera": is_camera_so, "stop": stops, "move": moves, "tip": tips,
-    "turn": turns, "pace": changes_pace,
+    "turn": turns, "begin": begins, "pace": changes_pace,
     "sit at": _sits_at, "macro": is_macro, "overtaken": is_overtaken, "cover": _covers,
 }  # fmt: skip
 """Kind of claim → its check."""

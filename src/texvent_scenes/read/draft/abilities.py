@@ -223,7 +223,8 @@ class Abilities:
             case "camera":
                 return False
             case noun if noun in self.nouns:
-                return names <= {"hand": HAND_NOUNS}.get(noun, {noun}) and not has_object
+                is_who = names <= {"hand": HAND_NOUNS}.get(noun, {noun})
+                return is_who and (not has_object or bool(verb.relation and objects))
         walks = all(map(self.walks, subjects))
         is_unfit |= is_way and verb.kind == "move"
         is_unfit &= is_ground or is_way or verb.kind == "break" or bool(names & PERSON_NOUNS)

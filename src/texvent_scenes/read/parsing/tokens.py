@@ -312,7 +312,8 @@ def _without_chance(
     """Senses of several words that do not stand together by chance.
 
     As in "a dog moves in a circle" (no camera), "a pedestrian crossing the street", "a bus stops"
-    (no things), "steps out from behind a car" (no view), "comes down the road" (no fall).
+    (no things), "steps out from behind a car" (no view), "comes down the road" (no fall),
+    "headlights on a road" (no lamps that are lit).
     """
     after = words[end + 1].casefold() if end + 1 < len(words) else ""
     articles = word_set("senses", "articles")
@@ -331,6 +332,7 @@ def _without_chance(
         and (one.kind != "verb" or one.value.who != "camera" or is_of_camera)
         and (one.kind != "scene" or one.value[1] != "view" or after == "that"
              or after not in articles | {"to"})
+        and not (after in articles and one.kind == "field" and one.value[0] == "is_lit")
         and not (after in articles and one.kind == "verb" and one.value.who in ("plain", "lamp")
                  and one.value.relation is None and words[end] in word_set("things", "particles")
                  and not _is_switched(one.value.who, words[end + 1 : end + 5]))
