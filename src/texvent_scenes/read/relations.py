@@ -96,7 +96,7 @@ def hand_over(
     things = [n for one in acts for n in one["to"]]
     is_taken = kind in ("from", "off", "out of") or (acts[-1:] and acts[-1]["kind"] == "lift")
     place = "on" if is_taken else _HANDED.get("on" if token.text == "onto" else kind, "")
-    if not (things and place) or not {*targets}.isdisjoint(things):
+    if not (things and place) or kind == "with" or not {*targets}.isdisjoint(things):
         return ""
     is_so = all([draft.relate(one, place, targets) for one in things])
     left = ("relation", "into") if place == "in" else ("arrive", place)
