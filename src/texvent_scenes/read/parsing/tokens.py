@@ -323,12 +323,13 @@ def _without_chance(
         or [one.casefold() for one in words[end + 1 : end + 3]] == ["in", "front"]
         or _is_act(words, end, before)
     )
+    is_placed = after == "of" and words[end].casefold() == "front"  # "a car in front of a house"
     is_many = bool(before) and before[-1].text.endswith(" of")  # "a stack of cardboard boxes"
     is_single = any(one.text in ("a", "an") for one in before[-2:]) and not is_many
     is_of_camera = not before or before[-1].is_sign or any(one.has("camera") for one in before[-9:])
     return tuple(
         one for one in senses
-        if (one.kind != "noun" or not (is_verb or (is_single and one.value.is_plural)))
+        if (one.kind != "noun" or not (is_verb or is_placed or (is_single and one.value.is_plural)))
         and (one.kind != "verb" or one.value.who != "camera" or is_of_camera)
         and (one.kind != "scene" or one.value[1] != "view" or after == "that"
              or after not in articles | {"to"})
