@@ -56,6 +56,7 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
     """The scene, and its words; one that is lost at one place of the prompt is not shown."""
     _choose_gender(draft)
     _lead_view(draft)
+    _ride_on(draft)
     _do_deeds(draft)
     _find_opponents(draft)
     _hang_up(draft)
@@ -207,6 +208,15 @@ def _lead_view(draft: SceneDraft) -> None:
             for motion in one["motions"]:
                 if motion["kind"] in ("drive", "move") and "direction" not in motion:
                     motion["direction"] = "away"
+
+
+def _ride_on(draft: SceneDraft) -> None:
+    """Let riders go of whom nothing is said: "a scooter rider on a road"."""
+    for one in draft.things:
+        mount = one.pop("rides", None)
+        if mount is not None and not (one["motions"] or draft.things[mount]["motions"]):
+            one["motions"] = [{"kind": "sit"}]
+            draft.things[mount]["motions"] = [{"kind": "move"}]
 
 
 def _do_deeds(draft: SceneDraft) -> None:

@@ -145,6 +145,9 @@ def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> st
     kind = _see_inside(kind, draft.nouns[thing["noun"]].habitat, noun)
     if kind in WAYS:
         return _choose_way(draft, kind, index, other)
+    goes_among = draft.things[other]["count"] > 1 and draft.can_go(other)
+    if kind == "in" and goes_among and draft.can_go(index):
+        return "between"  # "in a traffic jam", "in a crowd"
     ends = [one.get("end_pace") for one in thing["motions"]][-1:]
     if kind == "front" and ends == [0.0]:
         return "to"  # "stops in front of a dog", which is in its way

@@ -84,6 +84,11 @@ class Abilities:
         """Whether an object is said to go somewhere, by itself or as what it rides."""
         return bool(self.does([index]) & {*MEANS, "move", "roll", "slide", "crawl"})
 
+    def rides(self, index: int) -> bool:
+        """Whether an object is on what is ridden: "two men on motorcycles"."""
+        ridden = self.names(self.targets([index], ["ride", "on"]))
+        return bool(ridden & trait_values("ridden").keys())
+
     def is_swung(self, index: int) -> bool:
         """Whether an object is on a swing."""
         return bool(self.names(self.targets([index], ["on"])) & nouns_with("swings"))
@@ -213,6 +218,7 @@ class Abilities:
             case "walker" | "machine" | "bearer" | "belt":
                 is_load = verb.who in ("bearer", "belt")
                 is_said = has_object and bool(objects) if is_load else not has_object
+                is_said &= verb.who != "walker" or not any(map(self.rides, subjects))
                 return is_said and self._suits(verb.who, names)
             case "body" if any(self.nouns[one].motion not in ("roll", "drive") for one in names):
                 return False  # no dart, which would go along the ground
