@@ -145,7 +145,9 @@ class Abilities:
             needs_hands &= not is_rider
             needs_body = verb.relation in word_set("things", "of_bodies")  # no hand bends down
             is_acting &= not needs_body or names <= PERSON_NOUNS
-            needs_hands &= verb.relation != "hold" or not self._has_mouths(subjects, objects)
+            is_hung = names <= nouns_with("carries below")
+            has_mouths = is_hung or self._has_mouths(subjects, objects)
+            needs_hands &= verb.relation != "hold" or not has_mouths
             is_moved = verb.object != "work" or self.names(objects) <= swings
             is_moved &= verb.object not in TIMED or all(
                 verb.object in self.noun(n).acts for n in objects
