@@ -14,6 +14,7 @@ import numpy as np
 
 from texvent.sensor import SensorSize
 from texvent_scenes.checks.acts import (
+    begins,
     bounces,
     breaks,
     changes_pace,
@@ -77,6 +78,7 @@ _DONE = (
     "move",
     "tip",
     "turn",
+    "begin",
 )
 """Length of a clip in which motions get so far that they are judged, s; claims of read motions."""
 _OF_CAMERA = (SEEN, "circle", "camera", "macro")
@@ -305,7 +307,7 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "reverse": goes_back, "fall": falls, "water": _is_in_water, "descend": descends,
     "land": lands, "aside": goes_aside, "along": goes_along,
     "grip": handles_by_hand, "camera": is_camera_so, "stop": stops, "move": moves, "tip": tips,
-    "turn": turns, "pace": changes_pace,
+    "turn": turns, "begin": begins, "pace": changes_pace,
     "sky behind": _is_before_sky, "taken in": _is_taken_in,
     "sit at": _sits_at, "macro": is_macro, "overtaken": is_overtaken, "cover": _covers,
 }  # fmt: skip

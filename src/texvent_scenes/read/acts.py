@@ -29,6 +29,8 @@ EGO = "ego"
 """Needs of an act that is done to the vehicle of the camera."""
 _SLOWER = 0.45
 """Speed of a camera that is overtaken, as a share of what overtakes it."""
+_SLOW, _FAST = 0.05, 1.8
+"""Paces of a machine that begins to turn: the first and the last."""
 _ROAD_M_S = 9.0
 """Speed from which on what overtakes a camera needs none that is slower than usual, m/s."""
 
@@ -171,9 +173,10 @@ def _do(draft: SceneDraft, act: VerbSense, verb: Token, index: int) -> None:
         if (row := ANIMAL_ACTIVITIES.get(act.kind)) and row.effect:
             draft.add_effect(verb, row.effect, [index])
         is_seated = before[-1:] in (["sit"], ["lie"]) and act.kind in {*DONE_SEATED, "type"}
+        is_begun = find_aspect(draft, verb) is not None  # "waits and starts driving"
         is_later = draft.last.goes_on and verb.verbs("ing") and len(thing["motions"]) > len(before)
         is_end = act.kind == "break"  # of a fall: "falls, shattering"
-        if is_later and before and not (is_seated or is_end):
+        if is_later and before and not (is_seated or is_end or is_begun):
             draft.mark(verb, f"then {act.kind}")  # "walks, waving": not at once
     elif act.who == "lamp" and act.kind in _SWITCHED:
         draft.switch(act.kind, index)
@@ -182,6 +185,29 @@ def _do(draft: SceneDraft, act: VerbSense, verb: Token, index: int) -> None:
             thing["blink_hz"] = BLINK_HZ
         else:
             draft.add_effect(verb, act.kind, [index])
+
+
+def find_aspect(draft: SceneDraft, verb: Token) -> Token | None:
+    """The word before a verb that says that it begins: "starts to spin", "begins moving"."""
+    before = draft.beside(verb, -1)
+    before = draft.beside(verb, -2) if before.text == "to" else before
+    return before if before.text in word_set("things", "inceptive") else None
+
+
+def begin(draft: SceneDraft, verb: Token, subjects: Indices) -> None:
+    """Let who begins to do something rest before; machines gain speed."""
+    aspect = find_aspect(draft, verb)
+    if aspect is None or not subjects:
+        return
+    for index in subjects:
+        motions = draft.things[index]["motions"]
+        is_machine = draft.noun(index).is_working and not draft.can_go(index)
+        if is_machine and [one["kind"] for one in motions] in (["spin"], ["work"], ["turn"], ["move"]):
+            motions[0] |= {"kind": "work", "pace": _SLOW, "end_pace": _FAST}
+        elif len(motions) == 1 and motions[0]["kind"] != "stand":
+            motions.insert(0, {"kind": "stand"})
+    draft.mark(aspect, "shown" if all(draft.things[n]["motions"] for n in subjects) else "lost")
+    draft.claim(aspect, "begin", "", subjects)
 
 
 def _list_tools(activity: str) -> set[str]:

@@ -84,7 +84,8 @@ def _choose_placed(
     kind, before = phrase.preposition.relation, last.relation
     if kind == "with" and draft.beside(phrase.preposition, -1).has("noun"):
         others = {draft.things[index]["noun"] for index in {*draft.last.nearest} - {*subjects}}
-        if others and others <= PERSON_NOUNS | word_set("things", "vessels"):
+        bearers = word_set("things", "laden") - word_set("things", "tables")
+        if others and others <= PERSON_NOUNS | word_set("things", "vessels") | bearers:
             return draft.last.nearest  # "passes a man with a suitcase", "carries a tray with cups"
     if before == "with" and told and kind in PLACING and draft.beside(last, -1).has("place"):
         return told  # "in a room with candles on the table"

@@ -96,7 +96,7 @@ def hand_over(
     things = [n for one in acts for n in one["to"]]
     is_taken = kind in ("from", "off", "out of") or (acts[-1:] and acts[-1]["kind"] == "lift")
     place = "on" if is_taken else _HANDED.get("on" if token.text == "onto" else kind, "")
-    if not (things and place) or not {*targets}.isdisjoint(things):
+    if not (things and place) or kind == "with" or not {*targets}.isdisjoint(things):
         return ""
     is_so = all([draft.relate(one, place, targets) for one in things])
     left = ("relation", "into") if place == "in" else ("arrive", place)
@@ -145,6 +145,9 @@ def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> st
     kind = _see_inside(kind, draft.nouns[thing["noun"]].habitat, noun)
     if kind in WAYS:
         return _choose_way(draft, kind, index, other)
+    goes_among = draft.things[other]["count"] > 1 and draft.can_go(other)
+    if kind == "in" and goes_among and draft.can_go(index):
+        return "between"  # "in a traffic jam", "in a crowd"
     ends = [one.get("end_pace") for one in thing["motions"]][-1:]
     if kind == "front" and ends == [0.0]:
         return "to"  # "stops in front of a dog", which is in its way

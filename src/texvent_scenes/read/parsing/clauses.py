@@ -200,6 +200,8 @@ class _Parser(GroupReader):
             self._at += ahead + (not is_shot)  # "a dashcam driving" is a shot as well
             return replace(clause, about="camera")
         verbs = {one.value.who for one in self._token().verbs("base")}
+        leads = word_set("things", "camera_leads")
+        verbs |= {"camera"} if self._at == 0 and self._token().text in leads else set()
         is_command = verbs == {"camera"} or ("camera" in verbs and self._at == 0)
         if clause == Clause() and is_command and not self._token().has("noun"):
             return Clause(about="camera", verb=self._take())

@@ -13,7 +13,7 @@ from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, read_table, trait_value
 from texvent_scenes.read.parsing.groups import is_plural_form
-from texvent_scenes.read.parsing.lexicon import NounSense, Sense, word_set, word_table
+from texvent_scenes.read.parsing.lexicon import NounSense, Sense, expand, word_set, word_table
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token, token_at
 from texvent_scenes.words import list_plurals
 
@@ -183,12 +183,20 @@ def _see_beside(token: Token, tokens: Sequence[Token]) -> Token:
     others |= {re.sub(r"['’]s$", "", one.text) for one in tokens}
     others |= {one.value[1] for each in tokens for one in each.all("pose")}
     others |= {one.value.kind for each in tokens for one in each.all("verb")}
-    row = next((one for one in rows if others & {*one["nouns"]}), None)
+    before = _words_before(token, tokens)
+    row = next((one for one in rows if others & {*one.get("nouns", others)}
+                and any(before.endswith(f"{led} ") for each in one.get("led", [""]) for led in expand(each))), None)  # fmt: skip
     is_led = token_at(tokens, token.at - 1).has("articles", "field")  # no camera's "pan"
     if row is None or not (senses or token.is_unknown or is_led):
         return token
     sense = replace(senses[0] if senses else NounSense(""), noun=row["noun"])
     return replace(token, senses=(Sense("noun", sense),) if sense.noun else ())
+
+
+def _words_before(token: Token, tokens: Sequence[Token]) -> str:
+    """The words before a token, without articles, each after a space: " cars wait at red"."""
+    led = tokens[max(token.at - 2 * _NEAR, 0) : token.at]
+    return "".join(f" {one.text}" for one in led if not one.has("articles")) + " "
 
 
 def _relate(token: Token, tokens: Sequence[Token]) -> Token:

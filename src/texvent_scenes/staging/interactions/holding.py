@@ -108,6 +108,9 @@ def hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
     """
     if subject.noun.name in HAND_NOUNS:
         return _in_palm(subject, target)
+    if subject.noun.name in nouns_with("carries below"):
+        hung = shift(0.0, 0.0, target.foot_m - target.model.height)
+        return subject, carried(target, held_at(subject, "hands", hung), subject)
     if not is_person(subject):
         offset = _in_mouth(target)
         held = held_at(subject, "mouth", offset, swing=_swing(target, offset))
