@@ -90,9 +90,10 @@ def _choose_act(
 ) -> VerbSense | None:
     """The first sense of a verb that the subjects can do."""
     acts = [one.value for one in verb.all("verb") if subjects]
+    done = {draft.things[one].get("deed", "") for one in subjects} - {""}
     if verb.text in _list_performing():
-        done = {draft.things[one].get("deed", "") for one in subjects} - {""}
         acts[:0] = [VerbSense("person", one) for one in done]
+    acts.sort(key=lambda one: one.kind not in done)  # "swings at a ball": a golfer, a batter
     tools = [one for one in acts if one.who == "person" and _list_tools(one.kind)]
     if act := _act_as_person(draft, tools, subjects, objects, has_object):
         return act  # "a broom sweeping": it does not go

@@ -90,9 +90,9 @@ def lose_drift(draft: SceneDraft, after: Sequence[Phrase | Token]) -> None:
 def names_formation(draft: SceneDraft, phrase: Phrase, subjects: Indices) -> bool:
     """Whether it names a form in which some stand or go, which is lost: "flying in a spiral".
 
-    A dot in a square is a thing in another one.
+    A dot in a square is a thing in another one, as are two boxers in a ring.
     """
-    heads = heads_of(phrase.groups)
+    heads = [one for one in heads_of(phrase.groups) if not one.nouns or one.text in one.nouns]
     is_form = any(one.text in word_set("things", "forms") and not one.has("place") for one in heads)
     own = draft.names(subjects)
     is_drawn = bool(own) and own <= nouns_with("flat pattern")
