@@ -164,6 +164,8 @@ ON_GROUND: Mapping[str, str] = MappingProxyType(
 """Names of these activities, and of sitting, where there is no seat."""
 AIMED = frozenset({"point", "wave", "look", "feed", "talk", "shout"})
 """Activities that are turned to who or what they are for."""
+ON_TOP: Mapping[str, str] = MappingProxyType({"lift": "lift off a top", "set down": "set on a top"})
+"""Names of acts on a thing, as relations, where it is or comes to be on a bench."""
 SEATED = "sit and "
 """Begins the name of what is done sitting, as "sit and read"."""
 

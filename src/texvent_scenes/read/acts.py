@@ -116,7 +116,8 @@ def _act_as_person(
 ) -> VerbSense | None:  # fmt: skip
     """An act of people that hands or their tools do: "hands typing", "a pen writing"."""
     things = [draft.things[one] for one in subjects]
-    acts = [one for one in acts if one.who == "person"]
+    of_hands = word_set("things", "of_bodies")
+    acts = [one for one in acts if one.who == "person" or one.relation in of_hands]
     if not all(one["noun"] in HAND_NOUNS for one in things):
         acts = [act for act in acts if {one["noun"] for one in things} <= _list_tools(act.kind)]
     if not (things and acts):
@@ -126,6 +127,9 @@ def _act_as_person(
         one |= {"noun": "person", "count": 1}
     for act in acts:
         if draft.fits(act, subjects, objects, has_object):
+            for token in draft.tokens if act.relation in of_hands else ():
+                if token.nouns & HAND_NOUNS:
+                    draft.mark(token, "person")  # all of whom bends down
             return act
     for one, (noun, count) in zip(things, said, strict=True):
         one |= {"noun": noun, "count": count}
