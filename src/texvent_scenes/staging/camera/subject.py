@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent_scenes.description import SceneDescription
-from texvent_scenes.models.activities import OF_ARMS, HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.activities import HAND_NOUNS, OF_ARMS, PERSON_NOUNS
 from texvent_scenes.models.anchors import has_rim
 from texvent_scenes.models.effects import EFFECTS
 from texvent_scenes.models.tables import nouns_with, trait_value
