@@ -119,9 +119,10 @@ def _choose_act(
 ) -> VerbSense | None:
     """The first sense of a verb that the subjects can do."""
     acts = [one.value for one in verb.all("verb") if subjects]
+    done = {draft.things[one].get("deed", "") for one in subjects} - {""}
     if verb.text in _list_performing():
-        done = {draft.things[one].get("deed", "") for one in subjects} - {""}
         acts[:0] = [VerbSense("person", one) for one in done]
+    acts.sort(key=lambda one: one.kind not in done)  # "swings at a ball": a golfer, a batter
     tools = [one for one in acts if one.who == "person" and _list_tools(one.kind)]
     if act := _act_as_person(draft, tools, subjects, objects, has_object):
         return act  # "a broom sweeping": it does not go
@@ -144,7 +145,8 @@ def _act_as_person(
 ) -> VerbSense | None:  # fmt: skip
     """An act of people that hands or their tools do: "hands typing", "a pen writing"."""
     things = [draft.things[one] for one in subjects]
-    acts = [one for one in acts if one.who == "person"]
+    of_hands = word_set("things", "of_bodies")
+    acts = [one for one in acts if one.who == "person" or one.relation in of_hands]
     if not all(one["noun"] in HAND_NOUNS for one in things):
         acts = [act for act in acts if {one["noun"] for one in things} <= _list_tools(act.kind)]
     if not (things and acts):
@@ -154,6 +156,9 @@ def _act_as_person(
         one |= {"noun": "person", "count": 1}
     for act in acts:
         if draft.fits(act, subjects, objects, has_object):
+            for token in draft.tokens if act.relation in of_hands else ():
+                if token.nouns & HAND_NOUNS:
+                    draft.mark(token, "person")  # all of whom bends down
             return act
     for one, (noun, count) in zip(things, said, strict=True):
         one |= {"noun": noun, "count": count}

@@ -185,11 +185,15 @@ def _see_beside(token: Token, tokens: Sequence[Token]) -> Token:
     others |= {one.value.kind for each in tokens for one in each.all("verb")}
     before = _words_before(token, tokens)
     row = next((one for one in rows if others & {*one.get("nouns", others)}
+                and others.isdisjoint(one.get("without", ()))
                 and any(before.endswith(f"{led} ") for each in one.get("led", [""]) for led in expand(each))), None)  # fmt: skip
     is_led = token_at(tokens, token.at - 1).has("articles", "field")  # no camera's "pan"
     if row is None or not (senses or token.is_unknown or is_led):
         return token
     sense = replace(senses[0] if senses else NounSense(""), noun=row["noun"])
+    sense = replace(
+        sense, is_plural=sense.is_plural or token.text in list_plurals(sense.noun or "-")
+    )
     return replace(token, senses=(Sense("noun", sense),) if sense.noun else ())
 
 

@@ -266,7 +266,7 @@ def _read_phrase(
         if len(phrase) > 1 and found:
             found = _without_chance(found, words, end, before)
             found = () if _is_shade(words, end, lexicon) else found
-            is_thing = len(phrase) < end + 1 - at  # "approaching the camera", no moving camera
+            is_thing = len(phrase) == 2 < end + 1 - at  # "approaching the camera", no camera
             found = tuple(one for one in found if not (is_thing and one.kind == "noun"))
         if found:
             length, senses = end + 1 - at, found
