@@ -122,7 +122,8 @@ def go_to_place(
     place = PLACES[draft.parts["place"]["name"]]
     is_entered = token.text in ("onto", "into") and place.has_road and bool(moved)
     is_entered &= all(map(draft.walks, moved))
-    for index in moved if token.text == "across" or is_entered else ():
+    is_crossed = token.text == "across" or goes_over(draft, token, moved)
+    for index in moved if is_crossed or is_entered else ():
         for motion in draft.things[index]["motions"][-1:]:
             motion.setdefault("direction", "across")
     names = {one.value for head in heads for one in head.all("place")[:1]}
@@ -153,13 +154,21 @@ def go_to_place(
             draft.things[index].setdefault("placement", "lane")
 
 
+def goes_over(draft: SceneDraft, token: Token, subjects: Indices) -> bool:
+    """Whether all go over a place on foot or on wheels: "runs over the lawn"."""
+    return token.text == "over" and bool(subjects) and all(
+        draft.keeps_to_ground(one) and draft.does([one]) - {"stand"} for one in subjects
+    )  # fmt: skip
+
+
 def _shows_way(draft: SceneDraft, token: Token, place: PlaceModel, subjects: Indices) -> bool:
     """Whether a place shows a preposition: no "towards a park", "by a forest"."""
     kinds = token.relations
     if token.text in ("across", "down", "up"):
         return not subjects or any(draft.things[one]["motions"] for one in subjects)
     if "above" in kinds:
-        return not any(map(draft.keeps_to_ground, subjects))
+        is_high = not any(map(draft.keeps_to_ground, subjects))
+        return is_high or goes_over(draft, token, subjects)
     if "front" in kinds:  # "against a starry sky"
         return place.is_backdrop or place in (PLACES["sky"], PLACES["space"])
     is_past = token.text == "past" or (place.has_shore and token.text == "through")

@@ -129,9 +129,9 @@ def _make(nouns: Mapping[str, Noun]) -> Lexicon:
     for word in sorted(word_set("ambiguous", "words")):
         for form in (word, *list_plurals(word)):
             said = found.pop((form,), {})  # a camera may track
-            found[(form,)] = {
-                one: None for one in said if one.kind == "verb" and one.value.who == "camera"
-            }
+            kept = (one for one in said if (one.kind == "verb" and one.value.who == "camera")
+                    or (one.kind == "place" and form != word))  # fmt: skip
+            found[(form,)] = dict.fromkeys(kept)  # "the plains"
     return MappingProxyType({phrase: tuple(one) for phrase, one in found.items()})
 
 
