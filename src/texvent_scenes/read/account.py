@@ -212,7 +212,9 @@ def _bring_home(draft: SceneDraft) -> None:
     """Set the place that a compound names where no other is said: "a street musician"."""
     for before, head, noun in draft.homes:
         name = before.all("place")[0].value
-        if draft.parts["place"].setdefault("name", name) == name:
+        is_species = name in word_set("things", "species_of") and noun not in PERSON_NOUNS
+        is_species &= draft.nouns[noun].motion in ("walk", "fly", "swim")
+        if draft.parts["place"].setdefault("name", name) == name and not is_species:
             draft.show(before)
         else:
             draft.merge_compound(before, head, noun)
