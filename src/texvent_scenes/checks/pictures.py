@@ -26,6 +26,7 @@ from texvent_scenes.spec.scene import Place
 from texvent_scenes.staging.actors import Actor, PlacedModel, assemble
 from texvent_scenes.staging.compose import ComposedScene
 from texvent_scenes.staging.particles.choose import FALLING, Staged
+from texvent_scenes.staging.particles.emitter import Emitter
 from texvent_scenes.staging.surroundings.environment import RoadLine, build_environment
 from texvent_scenes.staging.tracks.phases import PATH_KINDS
 
@@ -61,6 +62,8 @@ _CARRIED = ("stand", "orbit")
 _RESTS = ("stand", "stand open", "stand closed", "hang", "work", "sit", "lie", "show red",
           "show amber", "show green")  # fmt: skip
 """Motions that nothing needs to show."""
+_POINT = 1e-6
+"""Radius of particles that are too small to be seen, in sizes of an effect."""
 _LATER_S = (0.13, 0.0171)
 """Times after which rotation shows, s: of both, no usual rate makes whole turns."""
 _FINE = 13
@@ -248,8 +251,17 @@ def _list_without(
     if description.light.kind not in (None, "day"):
         yield "light", description.light.kind, without(light=replace(description.light, kind=None))
     for kind in dict.fromkeys((said.weather, *(one.kind for one in description.effects))):
-        pairs = zip(staged.effects, staged.kinds, strict=True)
+        pairs = [*zip(staged.effects, staged.kinds, strict=True)]
         rest = tuple(effect for effect, own in pairs if own != kind)
         if len(rest) < len(staged.effects):
             name = "weather" if kind == said.weather else "effect"
             yield name, kind, replace(scene, particles=replace(staged, effects=rest))
+        if any(one.light for one in _EMITTERS.get(str(kind), ())):  # by its flames, not its light
+            dim = tuple(_dimmed(one) if own == kind else one for one, own in pairs)
+            yield "effect", kind, replace(scene, particles=replace(staged, effects=dim))
+
+
+def _dimmed(emitter: Emitter) -> Emitter:
+    """An emitter of which nothing is seen that shines, though it lights what is around."""
+    dim = replace(emitter.style, radius=(_POINT, _POINT))
+    return replace(emitter, style=dim) if emitter.style.emission[0] else emitter

@@ -15,6 +15,7 @@ from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_values
 from texvent_scenes.read.draft.copies import OPPOSITE, halve, take_turns
 from texvent_scenes.read.draft.scene_draft import SceneDraft
+from texvent_scenes.read.draft.sources import find_sources
 from texvent_scenes.read.parsing.lexicon import deeds, word_set, word_table
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
 from texvent_scenes.spec.data import scene_from_data
@@ -60,6 +61,7 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
     _do_deeds(draft)
     _find_opponents(draft)
     _hang_up(draft)
+    find_sources(draft)
     _turn_marks(draft)
     _bring_home(draft)
     _limit_counts(draft)
@@ -259,7 +261,9 @@ def _bring_home(draft: SceneDraft) -> None:
     """Set the place that a compound names where no other is said: "a street musician"."""
     for before, head, noun in draft.homes:
         name = before.all("place")[0].value
-        if draft.parts["place"].setdefault("name", name) == name:
+        is_species = name in word_set("things", "species_of") and noun not in PERSON_NOUNS
+        is_species &= draft.nouns[noun].motion in ("walk", "fly", "swim")
+        if draft.parts["place"].setdefault("name", name) == name and not is_species:
             draft.show(before)
         else:
             draft.merge_compound(before, head, noun)

@@ -52,6 +52,9 @@ def find_subjects(draft: SceneDraft, clause: Clause) -> list[int]:
         return [index for one in (picked if any(picked) else named) for index in one]
     first = clause.after[0] if clause.after and clause.verb is None else None
     is_open = isinstance(first, Token) and (first.is_unknown or first.has("verb"))
+    second = clause.after[1] if len(clause.after) > 1 else None
+    if isinstance(first, Token) and isinstance(second, Token) and clause.verb is None:
+        is_open |= first.has("scene") and bool(second.verbs("s", "base"))  # "snow flies up"
     if is_open and not clause.about:
         return []  # "as wugs dax against it"
     return draft.last.nearest if clause.about == "nearest" else _find_meant(draft, clause)

@@ -134,7 +134,8 @@ def _place_around(
 
 def _place_above(group: ObjectGroup, targets: Sequence[ObjectGroup], height: float) -> Goal:
     target, own = targets[0], group.models[0].height
-    if group.plan.motion.kind == "jump":
+    kinds = [one.kind for one in group.scene_object.motions]
+    if "jump" in kinds and {*kinds} <= PATH_KINDS | {"jump", "stand", "sink", "fall"}:
         leap_over(group, target)
         return Goal(_on_ground(target, height), _FIXED)
     clear = target.top_m + 0.7 * own + _CLEAR_M + (0.5 * own if is_centred(group.noun) else 0.0)
