@@ -35,7 +35,9 @@ def find_subjects(draft: SceneDraft, clause: Clause) -> list[int]:
         both = draft.last.nearest, draft.last.subjects
         able = [[one for one in each if _is_able(draft, clause, one)] for each in both]
         going = [one for one in draft.last.nearest if draft.can_go(one)]
-        on_belt = draft.names(draft.targets(draft.last.nearest, ["on"])) & {*trait_values("belt speed")}
+        on_belt = draft.names(draft.targets(draft.last.nearest, ["on"])) & {
+            *trait_values("belt speed")
+        }
         borne = draft.last.nearest if on_belt else []  # "a belt with bottles moving on it"
         return next(filter(None, (*able, going, borne)), draft.last.subjects)
     if clause.subjects:

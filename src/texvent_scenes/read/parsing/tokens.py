@@ -275,6 +275,12 @@ def _read_phrase(
         return _as_senses(stated)
     if is_number:
         return _as_senses(read_height(words, at) or read_quantity(words, at, lexicon))
+    lead = 1 + (words[at].casefold() == "a")  # "at a constant 600 rpm"
+    before, *rest = (*words[at : at + lead][-1:], *words[at + lead :])
+    if length == 1 and rest and before.casefold() in word_set("senses", "steady"):
+        further, said = read_quantity(rest, 0, lexicon)
+        if further > 1 and said:
+            return _as_senses((lead + further, said))
     return length, senses
 
 
