@@ -95,7 +95,7 @@ def _relate_act(draft: SceneDraft, kind: str, verb: Token, index: int, objects: 
     if kind == "follow" and about & nouns_with("runs on"):
         kind = "past"  # "follows a pipe"
     is_shot = verb.text.split()[0] in word_set("things", "shooting")
-    if kind == "throw" and is_shot and about == {"football"}:
+    if kind == "throw" and is_shot and about and about <= word_set("things", "by_foot"):
         kind = "kick"
     if kind == "lead":
         return lead_on(draft, verb, index, objects)

@@ -23,7 +23,7 @@ from texvent_scenes.spec.data import PLACING, WAYS
 def find_subjects(draft: SceneDraft, clause: Clause) -> list[int]:
     """Objects that a clause is about; in company, those that go by themselves."""
     heads = [one.head for one in clause.subjects]
-    if clause.about == "led":
+    if clause.about == "told":
         return draft.last.nearest if all(one and draft.shows(one) for one in heads) else []
     if clause.about == "company":
         if clause.is_of_effect or not all(one and draft.shows(one) for one in heads):
