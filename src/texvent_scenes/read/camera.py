@@ -29,7 +29,7 @@ def is_ego(draft: SceneDraft, clause: Clause) -> bool:
     """Whether a camera goes that is not named: "driving through a city"."""
     verbs = clause.verb.verbs("ing") if clause.verb is not None else ()
     travels = any(one.value.kind.startswith("travel") for one in verbs)
-    travels |= _is_driven(draft) and any(one.value.kind == "follow" for one in verbs)
+    travels |= draft.is_driven and any(one.value.kind in ("follow", "dolly in") for one in verbs)
     is_place = all(one.head and names_place(one.head, "") for one in clause.subjects)
     before = draft.beside(clause.verb or NO_TOKEN, -1)
     kinds = {one.value[1] for one in before.all("scene")} | {one.kind for one in before.senses}
@@ -114,13 +114,16 @@ def apply_to_camera(draft: SceneDraft, clause: Clause, *, is_own: bool) -> None:
     """Move the camera as a clause says, and name what is in view."""
     targets = list[int]()
     move = find_move(draft, clause)
-    is_driven = _is_driven(draft) or (move or {}).get("means") == "drive"
-    is_led = is_driven and move == split_move("follow")
+    is_driven = draft.is_driven or (move or {}).get("means") == "drive"
+    is_led = is_driven and move in (split_move("follow"), split_move("dolly in"))
     for group in clause.subjects if clause.about != "company" else ():
         name_group(draft, group, "in")
     for group in clause.objects if is_led or not is_own else ():
         targets += name_group(draft, group)
-    if is_led and _go_ahead(draft, clause.verb, targets):
+    if is_led and move == split_move("dolly in") and clause.verb is not None:
+        draft.claim(clause.verb, "camera", "towards", [None], targets)  # "approaching a bridge"
+        move = None
+    elif is_led and _go_ahead(draft, clause.verb, targets):
         move = None
     _lead_followed(draft, move, targets)
     for one in clause.after:
@@ -166,12 +169,6 @@ def _lead_followed(draft: SceneDraft, move: Mapping[str, Any] | None, targets: I
     for index in filter(draft.can_go, followed):
         thing = draft.things[index]
         thing["motions"] = thing["motions"] or [{"kind": "move"}]
-
-
-def _is_driven(draft: SceneDraft) -> bool:
-    """Whether a prompt says of its view that it is from a vehicle on a road."""
-    shots = {sense.value for token in draft.tokens for sense in token.all("shot")}
-    return _DRIVEN in shots or any(one.get("means") == "drive" for one in draft.moves)
 
 
 def _go_ahead(draft: SceneDraft, token: Token | None, targets: Indices) -> bool:

@@ -182,6 +182,9 @@ def _say_field(draft: SceneDraft, token: Token, said: Sense, index: int) -> None
         name = "end_m_s" if is_end else name
     if name == "direction" and motions[-1:] and motions[-1]["kind"] == "hover" and value in _ASIDE:
         motions[-1]["kind"] = "move"  # "a bubble floats past"
+    if name == "direction" and motions and value in ("across", "diagonal"):
+        held = {"across", "diagonal"} & {motions[-1].get("direction")}
+        value = "diagonal" if held else value  # "diagonally across the screen"
     set_field(draft.things[index], said.kind, name, value)
     draft.quantities[index, name] = value
 
