@@ -145,7 +145,8 @@ def apply_to_camera(draft: SceneDraft, clause: Clause, *, is_own: bool) -> None:
             if found and kind in ("through", "out of"):
                 is_side = move is None or not go_through(draft, move, one.preposition, found)
             is_over = look_over(draft, one.preposition, found)
-            claim_way(draft, move, one.preposition, [] if is_over else found)
+            is_low = kind == "above" and _keeps_to_ground(draft, move)
+            claim_way(draft, move, one.preposition, [] if is_over or is_low else found)
             heads = heads_of(one.groups)
             words = heads or [each for group in one.groups for each in group.unknown]
             is_side |= bool(one.groups) and not any(map(draft.shows, words))
@@ -155,6 +156,7 @@ def apply_to_camera(draft: SceneDraft, clause: Clause, *, is_own: bool) -> None:
             is_side |= is_place and not found and kind in ("out of", "into")  # it stays there
             goes = any(each["kind"] == "travel" for each in (*draft.moves, move or {"kind": ""}))
             is_side |= goes and bool(found) and kind in ("up", "down")  # it keeps its height
+            is_side |= bool(found) and is_low
             draft.mark(one.preposition, "lost" if is_side else "shown")  # nothing is put there
     if move is not None:
         draft.add_move(move)
@@ -169,6 +171,12 @@ def _lead_followed(draft: SceneDraft, move: Mapping[str, Any] | None, targets: I
     for index in filter(draft.can_go, followed):
         thing = draft.things[index]
         thing["motions"] = thing["motions"] or [{"kind": "move"}]
+
+
+def _keeps_to_ground(draft: SceneDraft, move: Mapping[str, Any] | None) -> bool:
+    """Whether a camera goes over ground, and so over nothing that stands there."""
+    travels = [one for one in (*draft.moves, move or {}) if one.get("kind") == "travel"]
+    return bool(travels) and all(one.get("means") not in ("fly", None) for one in travels)
 
 
 def _go_ahead(draft: SceneDraft, token: Token | None, targets: Indices) -> bool:

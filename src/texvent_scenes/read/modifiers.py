@@ -82,6 +82,8 @@ def say_word(draft: SceneDraft, token: Token, subjects: Indices) -> None:
         is_aside = token.text in word_set("things", "aside")
         draft.claim(token, "aside", "", subjects if is_aside else [])
         draft.claim(token, "reverse", "", subjects if value == "backward" else [])
+        is_close = value == "near" and token.text != "in the foreground"
+        draft.claim(token, "near", "", subjects if is_close else [])
         is_lamp = field == "rate_hz" and all("blink_hz" in one for one in things)
         draft.claim(token, "shine" if is_lamp else SEEN, "", subjects)
     else:
