@@ -13,6 +13,7 @@ from texvent_scenes.models.activities import (
     TIMED,
     is_mutual,
 )
+from texvent_scenes.models.anchors import takes_in
 from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.tables import nouns_with, trait_values
 from texvent_scenes.read.draft.abilities import Indices
@@ -43,6 +44,8 @@ def perform(
     if act is None or (has_object and not objects and act.who in ("plain", "body")):
         return None  # what it is done to is not known
     draft.show(verb)
+    if act.aims:
+        return _send(draft, act, verb, subjects, objects)
     if act.brings not in ("", EGO) and not objects:
         objects = [draft.add(act.brings)]
     if act.end_pace == 0.0 and act.kind == "stand" and can_arrive(draft, subjects):
@@ -64,12 +67,36 @@ def perform(
     return list(objects if act.object and objects else subjects)
 
 
+def _send(
+    draft: SceneDraft, act: VerbSense, verb: Token, subjects: Indices, objects: Indices
+) -> list[int]:
+    """Let a ball be sent to where it counts: "takes a penalty", "shoots and scores"."""
+    for index in subjects:
+        sent = draft.targets([index], [*SENT]) or list(objects)
+        if not draft.targets([index], [*SENT]):
+            sent = sent or draft.find(_KICKED)[:1] or [draft.add(act.brings)]
+            draft.relate(index, act.relation or "", sent)
+        ball = draft.things[sent[0]]["noun"]
+        goals = [n for n in draft.targets([index], ["towards", "into"])
+                 if takes_in(draft.things[n]["noun"])]  # fmt: skip
+        if not goals:
+            noun = word_table("scored_in").get(ball, act.aims)
+            goals = draft.find([noun])[:1] or [draft.add(noun)]
+            draft.relate(index, "towards", goals)
+        is_scored = verb.text.split()[0] in word_set("things", "scoring")
+        draft.claim(verb, "taken in", "", sent if is_scored else [], goals)
+    return list(subjects)
+
+
 def _relate_act(draft: SceneDraft, kind: str, verb: Token, index: int, objects: Indices) -> None:
     """Relate who acts to what the act is about, on a way that the staged scene holds."""
     who = ridden_by(draft, index, kind)
     about = draft.names(objects)
     if kind == "follow" and about & nouns_with("runs on"):
         kind = "past"  # "follows a pipe"
+    is_shot = verb.text.split()[0] in word_set("things", "shooting")
+    if kind == "throw" and is_shot and about == {"football"}:
+        kind = "kick"
     if kind == "lead":
         return lead_on(draft, verb, index, objects)
     if kind == "load":
@@ -92,9 +119,10 @@ def _choose_act(
 ) -> VerbSense | None:
     """The first sense of a verb that the subjects can do."""
     acts = [one.value for one in verb.all("verb") if subjects]
+    done = {draft.things[one].get("deed", "") for one in subjects} - {""}
     if verb.text in _list_performing():
-        done = {draft.things[one].get("deed", "") for one in subjects} - {""}
         acts[:0] = [VerbSense("person", one) for one in done]
+    acts.sort(key=lambda one: one.kind not in done)  # "swings at a ball": a golfer, a batter
     tools = [one for one in acts if one.who == "person" and _list_tools(one.kind)]
     if act := _act_as_person(draft, tools, subjects, objects, has_object):
         return act  # "a broom sweeping": it does not go
@@ -117,7 +145,8 @@ def _act_as_person(
 ) -> VerbSense | None:  # fmt: skip
     """An act of people that hands or their tools do: "hands typing", "a pen writing"."""
     things = [draft.things[one] for one in subjects]
-    acts = [one for one in acts if one.who == "person"]
+    of_hands = word_set("things", "of_bodies")
+    acts = [one for one in acts if one.who == "person" or one.relation in of_hands]
     if not all(one["noun"] in HAND_NOUNS for one in things):
         acts = [act for act in acts if {one["noun"] for one in things} <= _list_tools(act.kind)]
     if not (things and acts):
@@ -127,6 +156,9 @@ def _act_as_person(
         one |= {"noun": "person", "count": 1}
     for act in acts:
         if draft.fits(act, subjects, objects, has_object):
+            for token in draft.tokens if act.relation in of_hands else ():
+                if token.nouns & HAND_NOUNS:
+                    draft.mark(token, "person")  # all of whom bends down
             return act
     for one, (noun, count) in zip(things, said, strict=True):
         one |= {"noun": noun, "count": count}
@@ -180,7 +212,12 @@ def begin(draft: SceneDraft, verb: Token, subjects: Indices) -> None:
     for index in subjects:
         motions = draft.things[index]["motions"]
         is_machine = draft.noun(index).is_working and not draft.can_go(index)
-        if is_machine and [one["kind"] for one in motions] in (["spin"], ["work"], ["turn"], ["move"]):
+        if is_machine and [one["kind"] for one in motions] in (
+            ["spin"],
+            ["work"],
+            ["turn"],
+            ["move"],
+        ):
             motions[0] |= {"kind": "work", "pace": _SLOW, "end_pace": _FAST}
         elif len(motions) == 1 and motions[0]["kind"] != "stand":
             motions.insert(0, {"kind": "stand"})

@@ -131,6 +131,8 @@ def apply_to_camera(draft: SceneDraft, clause: Clause, *, is_own: bool) -> None:
             set_scene(draft, one)
         elif is_standpoint(draft, one, move or {}):
             continue
+        elif move is not None and _go_along(draft, clause, move, one):
+            continue
         elif targets:  # as "orbits a car in front of a house"
             apply_phrase(draft, one, targets, targets)
         else:
@@ -275,6 +277,43 @@ def claim_way(
     is_led = move is not None and move["kind"] not in ("follow", "zoom", "handheld", "static")
     for kind in sorted(kinds)[:1] if is_led and targets else ():
         draft.claim(preposition, "camera", kind, [None], targets)
+
+
+_ALONGSIDE = {"with": None, "beside": "side", "behind": "back"}
+"""Relations to what a camera goes along with → its view of that."""
+
+
+def _go_along(draft: SceneDraft, clause: Clause, move: dict[str, Any], phrase: Phrase) -> bool:
+    """Let a camera follow what it goes with: "pans with it", "moves alongside a car".
+
+    A pan is then shown as following.
+    """
+    token = phrase.preposition
+    kind = next(iter(token.relations & _ALONGSIDE.keys()), "")
+    is_meant = draft.beside(token, 1).has("pronouns")
+    nouns = nouns_of(phrase.groups)
+    goes = bool(nouns) and all(draft.nouns[one].speed_m_s for one in nouns)
+    able = ("follow",) if kind == "behind" else ("pan", "truck", "travel", "follow")
+    if not (kind and (is_meant or goes) and move["kind"] in able):
+        return False
+    about = [*draft.last.subjects, *draft.last.nearest, *range(len(draft.things))]
+    found = [index for group in phrase.groups for index in name_group(draft, group)]
+    led = [one for one in (found if nouns else about) if draft.can_go(one)][:1]
+    if not led:
+        return False
+    if move["kind"] == "pan" and clause.verb is not None:
+        draft.mark(clause.verb, "follow")
+    for motion in (draft.things[led[0]]["motions"] if "direction" in move else ())[-1:]:
+        motion["direction"] = move["direction"]  # "pans with it from left to right"
+    move.clear()
+    move |= {"kind": "follow"}
+    draft.parts["camera"]["target"] = led[0]
+    if _ALONGSIDE[kind] is not None:
+        draft.parts["camera"].setdefault("view", _ALONGSIDE[kind])
+    _lead_followed(draft, move, led)
+    draft.show(token)
+    draft.claim(token, "camera", "before", [None], led)
+    return True
 
 
 def _list_led(

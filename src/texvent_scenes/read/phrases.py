@@ -25,6 +25,7 @@ from texvent_scenes.read.prepositions import (
     is_standpoint,
     keep_distance,
     names_formation,
+    names_sky,
 )
 from texvent_scenes.read.relations import hand_over, relate_one
 from texvent_scenes.read.things import name_group
@@ -118,6 +119,7 @@ def apply_phrase(draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: In
     is_told = _is_before_ego(draft, phrase, subjects, moved) or dress(draft, phrase, subjects)
     if is_told or names_formation(draft, phrase, subjects):
         return []
+    _look_at_sky(draft, phrase, subjects)
     targets = list[int]()
     owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"
     for group in phrase.groups:
@@ -147,6 +149,7 @@ def apply_phrase(draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: In
     return targets
 
 
+<<<<<<< HEAD
 def _is_before_ego(
     draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: Indices
 ) -> bool:  # fmt: skip
@@ -164,6 +167,13 @@ def _is_before_ego(
     for motion in (one for n in moved for one in draft.things[n]["motions"][-1:]):
         motion.setdefault("direction", "across")
     return True
+=======
+def _look_at_sky(draft: SceneDraft, phrase: Phrase, subjects: Indices) -> None:
+    """See subjects before nothing but the sky, if a phrase says so: "against the sunset"."""
+    if names_sky(phrase):
+        draft.before_sky += subjects
+        draft.claim(phrase.preposition, "sky behind", "", subjects)
+>>>>>>> 22520055c93703aa21255f25c1bd636850fc93ac
 
 
 def _is_spout(draft: SceneDraft, targets: Indices) -> bool:
@@ -175,6 +185,8 @@ def _relate_all(
     draft: SceneDraft, token: Token, kind: str, subjects: Indices, targets: Indices
 ) -> None:
     """Apply a preposition to all that it is said of."""
+    if token.text in word_set("things", "led_along") and draft.names(targets) <= nouns_with("way"):
+        kind = "on"  # "walks along a pier"
     if handled := hand_over(draft, token, kind, subjects, targets):
         draft.mark(token, handled)
         return

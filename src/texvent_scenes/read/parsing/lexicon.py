@@ -84,6 +84,8 @@ class VerbSense:
     """Motion of its object."""
     brings: str = ""
     """Noun of the object that it needs not say: "kicks a penalty"."""
+    aims: str = ""
+    """Noun of what it sends that to: "scores"."""
     is_near: bool = False
     """Whether it is reported as shown by another one."""
 
@@ -183,14 +185,23 @@ _PERFORMERS = (("person", ACTIVITIES), ("hand", HAND_GESTURES))
 def _list_activities() -> Iterator[tuple[str, VerbSense]]:
     for who, table in _PERFORMERS:
         for name, activity in table.items():
-            yield from ((phrase, VerbSense(who, name)) for phrase in activity.words)
-            yield from ((phrase, VerbSense(who, name, is_near=True)) for phrase in activity.near)
+            for is_near, phrases in ((False, activity.words), (True, activity.near)):
+                yield from ((one, VerbSense(who, name, is_near=is_near))
+                            for phrase in phrases for one in _list_numbers(phrase))  # fmt: skip
             yield from _list_acts(who, name, activity)
     for name, activity in ANIMAL_ACTIVITIES.items():
         yield from ((verb, VerbSense("animal", name)) for verb in activity.words)
         yield from _list_acts("animal", name, activity)
     for name, effect in EFFECTS.items():
         yield from ((verb, VerbSense("source", name)) for verb in effect.verbs)
+
+
+def _list_numbers(phrase: str) -> Iterator[str]:
+    """A phrase of an act, and the same of several things: "iron a shirt", "iron shirts"."""
+    yield phrase
+    verb, article, what = phrase.partition(" a ")
+    if article and what.split()[-1] not in _PARTICLES:
+        yield from (f"{verb} {one}" for one in list_plurals(what) if one != what)
 
 
 def _list_acts(who: str, name: str, activity: Activity) -> Iterator[tuple[str, VerbSense]]:

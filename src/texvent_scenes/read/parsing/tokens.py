@@ -42,7 +42,8 @@ _NUMBER = (
 )
 _WORD = re.compile(_NUMBER + r"|[^\W\d_]+(?:['’][^\W\d_]+)*|[^\W_]|[.,;:!?/()]")
 _OWNER = re.compile(r"['’]s?$")
-_GRAMMAR = ("articles", "pronouns", "conjunctions", "relatives", "style", "purpose", "camera")
+_GRAMMAR = ("articles", "pronouns", "conjunctions", "relatives", "style", "purpose", "camera",
+            "infinitive")  # fmt: skip
 """Senses of words that a report does not list unless they are lost or shown."""
 _MIXED = re.compile("(?<=[0-9])(?=[¼-¾⅐-⅞])")
 """Between "1" and "½", which NFKC would join to 11/2."""
@@ -265,7 +266,7 @@ def _read_phrase(
         if len(phrase) > 1 and found:
             found = _without_chance(found, words, end, before)
             found = () if _is_shade(words, end, lexicon) else found
-            is_thing = len(phrase) < end + 1 - at  # "approaching the camera", no moving camera
+            is_thing = len(phrase) == 2 < end + 1 - at  # "approaching the camera", no camera
             found = tuple(one for one in found if not (is_thing and one.kind == "noun"))
         if found:
             length, senses = end + 1 - at, found
@@ -274,6 +275,12 @@ def _read_phrase(
         return _as_senses(stated)
     if is_number:
         return _as_senses(read_height(words, at) or read_quantity(words, at, lexicon))
+    lead = 1 + (words[at].casefold() == "a")  # "at a constant 600 rpm"
+    before, *rest = (*words[at : at + lead][-1:], *words[at + lead :])
+    if length == 1 and rest and before.casefold() in word_set("senses", "steady"):
+        further, said = read_quantity(rest, 0, lexicon)
+        if further > 1 and said:
+            return _as_senses((lead + further, said))
     return length, senses
 
 

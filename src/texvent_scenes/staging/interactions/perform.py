@@ -11,7 +11,13 @@ from functools import partial
 import numpy as np
 
 from texvent_scenes.description import STANDING, IndexedRelation, SceneDescription
-from texvent_scenes.models.activities import ACTIVITIES, AIMED, HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.activities import (
+    ACTIVITIES,
+    AIMED,
+    HAND_NOUNS,
+    ON_TOP,
+    PERSON_NOUNS,
+)
 from texvent_scenes.models.anchors import takes_in
 from texvent_scenes.models.people.outfit import can_be_worn, list_props
 from texvent_scenes.models.protocol import Noun, Pose
@@ -66,6 +72,7 @@ def settle_motions(
         for targets in ([(t,) for t in one.targets] if one.kind == "wear" else [one.targets])
     ]
     relations += _implied_acts(objects, relations)
+    relations = [_on_top(one, objects, relations) for one in relations]
     for relation in relations:
         if relation.kind in ACTS and relation.targets:
             _settle_act(relation, objects, relations, nouns, seed)
@@ -89,6 +96,19 @@ def settle_motions(
         for number in pair if said else ():
             objects[number] = _directed(objects[number], said[0])
     return replace(description, objects=tuple(objects), relations=tuple(relations))
+
+
+def _on_top(
+    act: IndexedRelation, objects: Sequence[SceneObject], relations: Sequence[IndexedRelation]
+) -> IndexedRelation:
+    """An act of a person on a thing as that on a bench, where what is in its place stands by."""
+    at_bench = ON_TOP.get(act.kind, "")
+    if not at_bench or objects[act.subject].noun not in PERSON_NOUNS:
+        return act
+    nouns = {noun for prop in list_props(at_bench) for noun in prop.nouns}
+    is_there = any(objects[n].noun in nouns for one in relations for n in one.targets
+                   if one.subject == act.subject and one.kind == "beside")  # fmt: skip
+    return replace(act, kind=at_bench) if is_there else act
 
 
 def _settle_act(
