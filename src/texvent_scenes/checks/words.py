@@ -315,12 +315,8 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "reverse": goes_back, "fall": falls, "water": _is_in_water, "descend": descends,
     "land": lands, "aside": goes_aside, "along": goes_along,
     "grip": handles_by_hand, "camera": is_camera_so, "stop": stops, "move": moves, "tip": tips,
-<<<<<<< HEAD
     "turn": turns, "begin": begins, "near": _is_near, "pace": changes_pace,
-=======
-    "turn": turns, "begin": begins, "pace": changes_pace,
     "sky behind": _is_before_sky, "taken in": _is_taken_in,
->>>>>>> 22520055c93703aa21255f25c1bd636850fc93ac
     "sit at": _sits_at, "macro": is_macro, "overtaken": is_overtaken, "cover": _covers,
 }  # fmt: skip
 """Kind of claim → its check."""

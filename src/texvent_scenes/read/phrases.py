@@ -149,7 +149,6 @@ def apply_phrase(draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: In
     return targets
 
 
-<<<<<<< HEAD
 def _is_before_ego(
     draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: Indices
 ) -> bool:  # fmt: skip
@@ -167,13 +166,13 @@ def _is_before_ego(
     for motion in (one for n in moved for one in draft.things[n]["motions"][-1:]):
         motion.setdefault("direction", "across")
     return True
-=======
+
+
 def _look_at_sky(draft: SceneDraft, phrase: Phrase, subjects: Indices) -> None:
     """See subjects before nothing but the sky, if a phrase says so: "against the sunset"."""
     if names_sky(phrase):
         draft.before_sky += subjects
         draft.claim(phrase.preposition, "sky behind", "", subjects)
->>>>>>> 22520055c93703aa21255f25c1bd636850fc93ac
 
 
 def _is_spout(draft: SceneDraft, targets: Indices) -> bool:
