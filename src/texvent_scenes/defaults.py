@@ -266,7 +266,9 @@ def _is_work(motion: Motion | None, noun: Noun) -> bool:
     if motion is None or motion.kind in ("stand", "swing", "spin", "turn", "work", "sway"):
         return True
     is_flat = noun.name in nouns_with("flat pattern")
-    return motion.kind == "move" and (motion.direction is None or is_flat)
+    turns = trait_value("turns per second", noun.name) is not None
+    swings = motion.direction == "to and fro" and not (turns or noun.speed_m_s)
+    return motion.kind == "move" and (motion.direction is None or is_flat or swings)
 
 
 def _work(motion: Motion | None, noun: Noun) -> Motion:

@@ -174,6 +174,11 @@ def _do(draft: SceneDraft, act: VerbSense, verb: Token, index: int) -> None:
         return  # its water does so
     if act.who not in ("source", "lamp"):
         before = [one["kind"] for one in thing["motions"]]
+        if before[-1:] and before[-1].startswith("show ") and act.kind.startswith("turn "):
+            thing["motions"].pop()  # "a red light turns green", as it does anyway
+            state = before.pop()
+            draft.claims = {at: [one for one in said if one.value != state]
+                            for at, said in draft.claims.items()}  # fmt: skip
         add_motion(thing, act, goes_on=draft.last.goes_on)
         if (row := ANIMAL_ACTIVITIES.get(act.kind)) and row.effect:
             draft.add_effect(verb, row.effect, [index])

@@ -20,6 +20,8 @@ _SAID_TWICE = ("travel", "handheld", "static")
 """Moves of which a verb says what a shot is: "handheld camera shaking"."""
 _NEAR = 3
 """Words from an effect to what it comes from: "smoke is rising from a chimney"."""
+_DRIVEN = "travel forward drive"
+"""Shot from a vehicle on a road."""
 _UNTURNED = ("handheld", "static")
 _TURNING = ("spin", "roll", "slide")
 BLINK_HZ = 2.0
@@ -156,6 +158,12 @@ class SceneDraft(Abilities):
             self.moves.append({**move, **phase})
         if move.get("means") == "fly":
             self.parts["camera"].setdefault("view", "aerial")
+
+    @property
+    def is_driven(self) -> bool:
+        """Whether a prompt says of its view that it is from a vehicle on a road."""
+        shots = {sense.value for token in self.tokens for sense in token.all("shot")}
+        return _DRIVEN in shots or any(one.get("means") == "drive" for one in self.moves)
 
     def set_journey(self, name: str, value: Any) -> bool:
         """Set a speed or a rate of the camera's last move that has one; False: none has."""

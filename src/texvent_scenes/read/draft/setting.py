@@ -70,6 +70,8 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
     """As "on a snowy road", "a red sky", "a mountain road"; a second place is far off."""
     place = draft.parts["place"]
     name = head.all("place")[0].value
+    is_room_again = head.text == "room" and "name" in place and is_room(place["name"])
+    name = place["name"] if is_room_again else name
     is_it = name in ("sky", place.get("name", name))
     for token in group.modifiers:
         field, value = token.value("field")
