@@ -21,6 +21,7 @@ from texvent_scenes.read.parsing.lexicon import VerbSense, list_forms, word_set,
 from texvent_scenes.read.parsing.tokens import Token
 from texvent_scenes.read.relations import bear_on, lead_on, relate_one, ridden_by
 from texvent_scenes.spec.data import SENT, WAYS
+from texvent_scenes.words import list_plurals
 
 _KICKED = nouns_with("kicked or thrown")
 _SWITCHED = ("on", "off")
@@ -91,6 +92,9 @@ def _choose_act(
     """The first sense of a verb that the subjects can do."""
     acts = [one.value for one in verb.all("verb") if subjects]
     done = {draft.things[one].get("deed", "") for one in subjects} - {""}
+    words = {draft.things[one].get("word", "") for one in subjects}
+    if verb.text in _list_performing() and not done and words & _musicians():
+        return None  # of an instrument that nobody plays here: no game
     if verb.text in _list_performing():
         acts[:0] = [VerbSense("person", one) for one in done]
     acts.sort(key=lambda one: one.kind not in done)  # "swings at a ball": a golfer, a batter
@@ -169,6 +173,13 @@ def _list_tools(activity: str) -> set[str]:
 
 
 @cache
+def _musicians() -> frozenset[str]:
+    """Words of musicians who are not drawn playing: "cellists"."""
+    said = word_set("things", "musicians")
+    return frozenset(form for one in said for form in (one, *list_plurals(one)))
+
+
+@cache
 def _list_performing() -> frozenset[str]:
     """Forms of verbs for an act that a person does anyway: "plays", of a violinist."""
     verbs = word_set("things", "performing")
@@ -190,7 +201,7 @@ def claim_act(draft: SceneDraft, act: VerbSense, verb: Token, index: int, object
         draft.claim(verb, "stop", "", [index])
     if act.who == "lamp" and draft.things[index]["noun"] not in word_set("things", "flames"):
         draft.claim(verb, "shine", "", [index])
-    if act.who in ("person", "hand", "animal") or act.kind == "lie":
+    if act.who in ("person", "hand", "animal", *draft.nouns) or act.kind == "lie":
         is_body = act.who != "plain" or draft.walks(index)
         draft.claim(verb, "activity" if is_body else "lie", act.kind, [index])
     elif verb.text in word_set("things", "hung"):
