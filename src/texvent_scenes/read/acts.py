@@ -25,6 +25,7 @@ from texvent_scenes.words import list_plurals
 
 _KICKED = nouns_with("kicked or thrown")
 _SWITCHED = ("on", "off")
+_CARRYING = nouns_with("carries people")
 EGO = "ego"
 """Needs of an act that is done to the vehicle of the camera."""
 _SLOWER = 0.45
@@ -41,7 +42,12 @@ def perform(
     act = _choose_act(draft, verb, subjects, objects, has_object)
     if act is None or (has_object and not objects and act.who in ("plain", "body")):
         return None  # what it is done to is not known
+    if act.relation == "ride" and objects and not all(map(draft.may_carry, objects)):
+        return None
     draft.show(verb)
+    if act.relation == "ride" and objects and draft.names(objects) <= _CARRYING:
+        act = VerbSense(relation="on")  # an escalator
+        draft.mark(verb, "stand")
     if act.brings not in ("", EGO) and not objects:
         objects = [draft.add(act.brings)]
     if act.end_pace == 0.0 and act.kind == "stand" and can_arrive(draft, subjects):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from texvent_scenes.models.activities import AIMED, ON_TOP, PERSON_NOUNS
+from texvent_scenes.models.activities import ACTIVITIES, AIMED, ON_TOP, PERSON_NOUNS
 from texvent_scenes.models.anchors import has_rim, takes_in
 from texvent_scenes.models.people.outfit import can_be_worn, list_props
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
@@ -24,6 +24,7 @@ _RUNNING = frozenset({"slide", "roll", "drive", "move"})
 _ROUND = frozenset({"on", "past", "at", "in", "through", "into"})
 """Relations to a ring that those who go have along it."""
 _SMALL = nouns_with("in hand or on something")
+_WORKED_AT = nouns_with("worked at")
 _GROUND = nouns_with("way") | {"rug"}
 _HANDED = {"into": "in", "in": "in", "on": "on", "to": "on", "above": "on"}
 
@@ -47,6 +48,9 @@ def relate_one(draft: SceneDraft, kind: str, index: int, targets: Indices) -> bo
             return True  # it stands in the distance
         if not any(map(draft.can_go, (index, *targets))):
             return False  # "a vase with roses", "a disc with a dot"
+    if kind == "on" and noun in _WORKED_AT and _works(thing):
+        draft.relate(index, "beside", targets)
+        return False
     if kind == "on" and noun in word_set("things", "peaks"):
         return False  # its slopes bear nothing
     targets = [ridden_by(draft, one, kind) for one in targets]  # "behind the rider"
@@ -163,6 +167,27 @@ def _bear(draft: SceneDraft, index: int, targets: Indices) -> str:
         return ""
     is_put = bearer in word_set("things", "laden") and first not in nouns_with("seat")
     return "on" if is_put else "in" if bearer in word_set("things", "vessels") else ""
+
+
+def _works(thing: Mapping[str, Any]) -> bool:
+    """Whether a person does something with the hands there."""
+    does = {one["kind"] for one in thing["motions"]} & ACTIVITIES.keys()
+    stays = {
+        "stand",
+        "sit",
+        "lie",
+        "jump",
+        "dance",
+        "walk",
+        "run",
+        "crawl",
+        "climb",
+        "sit down",
+        "stand up",
+        "kneel",
+        "crouch",
+    }
+    return thing["noun"] in PERSON_NOUNS and bool(does - stays)
 
 
 def _use(thing: Mapping[str, Any], noun: str) -> str:
