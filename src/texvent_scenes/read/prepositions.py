@@ -102,6 +102,16 @@ def names_formation(draft: SceneDraft, phrase: Phrase, subjects: Indices) -> boo
     return phrase.preposition.text == "in" and is_form and not is_drawn
 
 
+def names_sky(phrase: Phrase) -> bool:
+    """Whether it says that nothing but the sky is behind: "against the sunset"."""
+    words = words_of(phrase.groups)
+    skies = {one.value for word in words for one in word.all("place")} & {"sky"}
+    lights = any(one.value[1] in ("light", "clouds") or one.value[:2] == ("light", "kind")
+                 for word in words for one in word.all("scene"))  # fmt: skip
+    clouds = any("cloud" in one.nouns for one in words)
+    return phrase.preposition.text == "against" and (bool(skies) or lights or clouds)
+
+
 def find_mutual(groups: Sequence[Group], after: Sequence[Phrase | Token] = ()) -> list[Token]:
     """The words "each other" of some groups, or after them."""
     words = [one for group in groups for one in group.unknown]

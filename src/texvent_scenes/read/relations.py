@@ -48,11 +48,8 @@ def relate_one(draft: SceneDraft, kind: str, index: int, targets: Indices) -> bo
             return True  # it stands in the distance
         if not any(map(draft.can_go, (index, *targets))):
             return False  # "a vase with roses", "a disc with a dot"
-    if kind == "on" and noun in _WORKED_AT and _works(thing):
-        draft.relate(index, "beside", targets)
+    if kind == "on" and _bears_nobody(draft, index, noun, targets):
         return False
-    if kind == "on" and noun in word_set("things", "peaks"):
-        return False  # its slopes bear nothing
     targets = [ridden_by(draft, one, kind) for one in targets]  # "behind the rider"
     used = _use(thing, noun) if kind in ("in", "into", "from", "on", "off") else ""
     kind = used or _choose_relation(draft, kind, index, targets[0])
@@ -103,7 +100,7 @@ def hand_over(
     things = [n for one in acts for n in one["to"]]
     is_taken = kind in ("from", "off", "out of") or (acts[-1:] and acts[-1]["kind"] == "lift")
     place = "on" if is_taken else _HANDED.get("on" if token.text == "onto" else kind, "")
-    if not (things and place) or not {*targets}.isdisjoint(things):
+    if not (things and place) or kind == "with" or not {*targets}.isdisjoint(things):
         return ""
     is_so = all([draft.relate(one, place, targets) for one in things])
     left = ("relation", "into") if place == "in" else ("arrive", place)
@@ -169,6 +166,14 @@ def _bear(draft: SceneDraft, index: int, targets: Indices) -> str:
     return "on" if is_put else "in" if bearer in word_set("things", "vessels") else ""
 
 
+def _bears_nobody(draft: SceneDraft, index: int, noun: str, targets: Indices) -> bool:
+    """Whether nothing is put on a thing: slopes of a peak; who works at it stands by it then."""
+    is_worked_at = noun in _WORKED_AT and _works(draft.things[index])
+    if is_worked_at:
+        draft.relate(index, "beside", targets)
+    return is_worked_at or noun in word_set("things", "peaks")
+
+
 def _works(thing: Mapping[str, Any]) -> bool:
     """Whether a person does something with the hands there."""
     does = {one["kind"] for one in thing["motions"]} & ACTIVITIES.keys()
@@ -205,6 +210,9 @@ def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> st
     kind = _see_inside(kind, draft.nouns[thing["noun"]].habitat, noun)
     if kind in WAYS:
         return _choose_way(draft, kind, index, other)
+    goes_among = draft.things[other]["count"] > 1 and draft.can_go(other)
+    if kind == "in" and goes_among and draft.can_go(index):
+        return "between"  # "in a traffic jam", "in a crowd"
     ends = [one.get("end_pace") for one in thing["motions"]][-1:]
     if kind == "front" and ends == [0.0]:
         return "to"  # "stops in front of a dog", which is in its way

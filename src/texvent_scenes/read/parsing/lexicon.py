@@ -86,6 +86,8 @@ class VerbSense:
     """Motion of its object."""
     brings: str = ""
     """Noun of the object that it needs not say: "kicks a penalty"."""
+    aims: str = ""
+    """Noun of what it sends that to: "scores"."""
     is_near: bool = False
     """Whether it is reported as shown by another one."""
 
@@ -176,7 +178,7 @@ def _list_plain_verbs() -> Iterator[tuple[str, VerbSense]]:
             yield base, VerbSense(who, kind, float(pace or 1))
     for phrase, said in word_table("verbs").items():
         senses = said if isinstance(said, list) else [said]
-        yield from ((base, VerbSense(**one)) for base, one in product(_expand(phrase), senses))
+        yield from ((base, VerbSense(**one)) for base, one in product(expand(phrase), senses))
 
 
 _PERFORMERS = (("person", ACTIVITIES), ("hand", HAND_GESTURES))
@@ -283,7 +285,7 @@ def _walk(table: Mapping[str, Any], path: tuple[str, ...] = ()) -> Iterator[tupl
     for key, value in table.items():
         if isinstance(value, list):
             around = _AROUND if "shot" in path or "camera" in path else "{}"
-            yield (*path, key), [each for one in value for each in _expand(around.format(one))]
+            yield (*path, key), [each for one in value for each in expand(around.format(one))]
         else:
             yield from _walk(value, (*path, key))
 
@@ -292,7 +294,7 @@ _AROUND = "(from |by |with |in |){}( only|)"
 """Words about a shot that say no more: "from an aerial view", "forward motion only"."""
 
 
-def _expand(phrase: str) -> Iterator[str]:
+def expand(phrase: str) -> Iterator[str]:
     """Phrases with one of the words between brackets each: "(top|overhead) view( of|)"."""
     parts = re.split(r"[()]", phrase)
     choices = [one.split("|") if number % 2 else [one] for number, one in enumerate(parts)]

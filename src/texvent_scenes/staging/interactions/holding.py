@@ -46,6 +46,9 @@ _SEAT_M = 0.42
 
 _IN_PALM, _HAND_M = 0.35, 0.1
 """Height at which a hand alone holds a thing, as a share of its own, and at most, m."""
+_WIDE_M, _AT_RIM_M, _BEHIND_M = 0.2, 0.03, 0.02
+"""Size from which on a board would hide the hand, which therefore holds it at its lower rim; height
+of the palm above that, and place of the board behind it, m."""
 
 
 class Hold(NamedTuple):
@@ -109,6 +112,9 @@ def hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
     """
     if subject.noun.name in HAND_NOUNS:
         return _in_palm(subject, target)
+    if subject.noun.name in nouns_with("carries below"):
+        hung = shift(0.0, 0.0, target.foot_m - target.model.height)
+        return subject, carried(target, held_at(subject, "hands", hung), subject)
     if not is_person(subject):
         offset = _in_mouth(target)
         held = held_at(subject, "mouth", offset, swing=_swing(target, offset))
@@ -154,6 +160,9 @@ def _in_palm(hand: Actor, thing: Actor) -> tuple[Actor, Actor]:
     """A thing before the palm of a hand, by its foot or handle; the hand turns with it."""
     below = min(_IN_PALM * thing.model.height, _HAND_M)
     depth = 0.5 * thing.model.length if thing.model.length < _HAND_M else 0.0
+    is_thin = thing.model.length < _HAND_M or thing.noun.name in nouns_with("upright")
+    if is_thin and min(thing.model.width, thing.model.height) > _WIDE_M:
+        below, depth = _AT_RIM_M, -_BEHIND_M
     offset = along_tool(thing) if is_tool(thing) else shift(depth, 0.0, thing.foot_m - below)
     swing, free = _swing(thing, offset), hand
     if swing is not None:
