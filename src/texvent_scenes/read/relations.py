@@ -168,7 +168,8 @@ def _bear(draft: SceneDraft, index: int, targets: Indices) -> str:
 
 def _bears_nobody(draft: SceneDraft, index: int, noun: str, targets: Indices) -> bool:
     """Whether nothing is put on a thing: slopes of a peak; who works at it stands by it then."""
-    is_worked_at = noun in _WORKED_AT and _works(draft.things[index])
+    thing = draft.things[index]
+    is_worked_at = noun in _WORKED_AT and _works(thing) and not _use(thing, noun)
     if is_worked_at:
         draft.relate(index, "beside", targets)
     return is_worked_at or noun in word_set("things", "peaks")
