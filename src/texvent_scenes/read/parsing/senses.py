@@ -60,7 +60,8 @@ def _see_as_move(token: Token, tokens: Sequence[Token]) -> Token:
     """The token without a move of the camera of which it is not said: "tracks"."""
     is_open = any(token.text in (one, *list_plurals(one)) for one in word_set("ambiguous", "words"))
     is_said = any(one.has("camera") for one in tokens[max(token.at - _NEAR, 0) : token.at])
-    return replace(token, senses=()) if is_open and not is_said else token
+    kept = tuple(one for one in token.senses if one.kind != "verb")
+    return replace(token, senses=kept) if is_open and not is_said else token
 
 
 def _see_as_young(token: Token, tokens: Sequence[Token]) -> Token:
