@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache
+from typing import Any
 
 from texvent_scenes.models.activities import (
     ANIMAL_ACTIVITIES,
     DONE_SEATED,
     HAND_NOUNS,
+    ON_FOOT,
     TIMED,
     is_mutual,
 )
@@ -195,7 +197,8 @@ def _do(draft: SceneDraft, act: VerbSense, verb: Token, index: int) -> None:
         is_begun = find_aspect(draft, verb) is not None  # "waits and starts driving"
         is_later = draft.last.goes_on and verb.verbs("ing") and len(thing["motions"]) > len(before)
         is_end = act.kind == "break"  # of a fall: "falls, shattering"
-        if is_later and before and not (is_seated or is_end or is_begun):
+        is_after = is_later and before and not (is_seated or is_end or is_begun)
+        if is_after and not (draft.walks(index) and _join(thing["motions"])):
             draft.mark(verb, f"then {act.kind}")  # "walks, waving": not at once
     elif act.who == "lamp" and act.kind in _SWITCHED:
         draft.switch(act.kind, index)
@@ -232,6 +235,16 @@ def begin(draft: SceneDraft, verb: Token, subjects: Indices) -> None:
             motions.insert(0, {"kind": "stand"})
     draft.mark(aspect, "shown" if all(draft.things[n]["motions"] for n in subjects) else "lost")
     draft.claim(aspect, "begin", "", subjects)
+
+
+def _join(motions: list[dict[str, Any]]) -> bool:
+    """Let an act of the arms be done on the way: "walks, waving", "talks on a phone, walking"."""
+    way = [one for one in motions if one["kind"] in ON_FOOT and "end_pace" not in one]
+    acts = [one for one in motions if one["kind"] in DONE_SEATED]
+    if not len(motions) == 2 * len(way) == 2 * len(acts) == 2:
+        return False
+    motions[:] = [*way, {**acts[0], "start_s": 0.0}]
+    return True
 
 
 def _list_tools(activity: str) -> set[str]:

@@ -24,6 +24,7 @@ _RUNNING = frozenset({"slide", "roll", "drive", "move"})
 _ROUND = frozenset({"on", "past", "at", "in", "through", "into"})
 """Relations to a ring that those who go have along it."""
 _SMALL = nouns_with("in hand or on something")
+_BED = nouns_with("seat") | word_set("things", "tables")
 _WORKED_AT = nouns_with("worked at")
 _GROUND = nouns_with("way") | {"rug"}
 _HANDED = {"into": "in", "in": "in", "on": "on", "to": "on", "above": "on"}
@@ -170,9 +171,16 @@ def _bears_nobody(draft: SceneDraft, index: int, noun: str, targets: Indices) ->
     """Whether nothing is put on a thing: slopes of a peak; who works at it stands by it then."""
     thing = draft.things[index]
     is_worked_at = noun in _WORKED_AT and _works(thing) and not _use(thing, noun)
+    is_worked_at |= noun in _BED and _has_bench(thing) and not _use(thing, noun)
     if is_worked_at:
         draft.relate(index, "beside", targets)
     return is_worked_at or noun in word_set("things", "peaks")
+
+
+def _has_bench(thing: Mapping[str, Any]) -> bool:
+    """Whether an act comes with a bench of its own, which stands on no bed."""
+    props = [prop for one in thing["motions"] for prop in list_props(one["kind"])]
+    return any(prop.anchor == "ground" and prop.name.startswith("bench") for prop in props)
 
 
 def _works(thing: Mapping[str, Any]) -> bool:
