@@ -102,6 +102,23 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
         draft.mark(head, name if head.text in word_set("things", "stand_ins") else "shown")
 
 
+def go_inside(draft: SceneDraft, group: Group, relation: str, owners: Sequence[int]) -> bool:
+    """Show a room for the building in which some are who walk; whether it does.
+
+    As in "a man prays in a church", where no place is said and the building is no thing yet.
+    """
+    head, rooms = group.head, word_table("interiors")
+    noun = group.noun.noun if group.noun is not None else ""
+    is_open = relation == "in" and noun in rooms and "name" not in draft.parts["place"]
+    if head is None or not (is_open and owners) or draft.find([noun]):
+        return False
+    if not all(map(draft.walks, owners)):
+        return False
+    draft.parts["place"]["name"] = rooms[noun]
+    draft.mark(head, rooms[noun])
+    return True
+
+
 def _fill_place(draft: SceneDraft, token: Token, place: str) -> None:
     """Add those of whom a place is full: "a busy street"."""
     full = word_table("brings")

@@ -40,6 +40,8 @@ def word_set(table: str, key: str) -> frozenset[str]:
 def list_forms(phrase: str) -> list[tuple[str, str]]:
     """Forms of a phrase that begins with a verb, and the name of each: "walks in"."""
     base, _, rest = phrase.partition(" ")
+    if " ".join((base, *rest.split()[:1])) in word_set("things", "compound_verbs"):
+        return [(f"{base} {words}", form) for words, form in list_forms(rest)]  # "ice skating"
     forms = list_verb_forms(base, word_table("irregular").get(base, ""))
     return [(f"{word} {rest}".strip(), form) for word, form in forms]
 
