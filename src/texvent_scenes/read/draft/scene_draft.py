@@ -265,6 +265,9 @@ def add_motion(thing: dict[str, Any], act: VerbSense, *, goes_on: bool = False) 
     if goes_on and act.kind == "move" and (last["kind"] in MEANS or "speed_m_s" in last):
         last |= {"direction": act.direction} if act.direction else {}
         return
+    if goes_on and act.kind in MEANS and act.kind == last["kind"]:
+        last.setdefault("pace", act.pace)  # "runs through a park, chasing butterflies"
+        return
     if act.kind == "move" and act.end_pace == 0.0 and last["kind"] in _TURNING:
         last["end_pace"] = 0.0  # "a spinning coin comes to rest"
         return
