@@ -50,6 +50,8 @@ def find_subjects(draft: SceneDraft, clause: Clause) -> list[int]:
     second = clause.after[1] if len(clause.after) > 1 else None
     if isinstance(first, Token) and isinstance(second, Token) and clause.verb is None:
         is_open |= first.has("scene") and bool(second.verbs("s", "base"))  # "snow flies up"
+    if isinstance(first, Token) and first.says("scene", "light") and " " in first.text:
+        is_open = True  # "sunlight shines through the trees"
     if is_open and not clause.about:
         return []  # "as wugs dax against it"
     return draft.last.nearest if clause.about == "nearest" else _find_meant(draft, clause)

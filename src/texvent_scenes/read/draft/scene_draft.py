@@ -72,6 +72,8 @@ class SceneDraft(Abilities):
     phases: int = 0
     """Times that "then" was said: effects begin in that phase, light and weather do not change."""
     effects: list[dict[str, Any]] = field(default_factory=list)
+    is_over: bool = False
+    """Whether the sky is named, and not that anything is in it."""
     """Effects, each with the index of its source."""
     absent: list[str] = field(default_factory=list)
     parts: dict[str, dict[str, Any]] = field(
