@@ -157,7 +157,7 @@ def _blow(draft: SceneDraft, index: int) -> bool:
     thing, noun = draft.things[index], draft.noun(index)
     if noun.is_working or {one["kind"] for one in thing["motions"]} & _IN_WIND:
         return True
-    is_still = {one["kind"] for one in thing["motions"]} <= {"stand", "grow"}
+    is_still = {one["kind"] for one in thing["motions"]} <= {"stand", "grow", "move"}
     if (noun.habitat == "fixed" or noun.motion == "stand") and is_still:
         thing["motions"] = [{"kind": "sway"}]
     return bool(thing["motions"]) and thing["motions"][-1]["kind"] == "sway"
