@@ -60,6 +60,8 @@ _BY = ("at", "to", "towards")
 """Words for "beside" of what one cannot be at otherwise, such as a pier."""
 _SAID = {"front": "in front of", "follow": "following", "act on": "at"}
 """Kinds of relation that a line of the report says in other words."""
+_RESTING, _AMID = ("stand", "hover", "spin"), 0.2
+"""Motions in one place; greatest tangent of the angle to what is in the middle."""
 _MOST_COPIES = 0.75
 """Share of a subject's copies in a relation."""
 
@@ -125,10 +127,19 @@ def find_violations(
         if own and sign and not any(np.mean(sign * one.seen[:, 0]) > _ASIDE for one in own):
             yield Violation("placement", str(thing.placement), f"{names[index]} on the "
                             f"{thing.placement}")  # fmt: skip
+        if own and thing.placement == "centre" and not _is_amid(thing, own):
+            yield Violation("placement", "centre", f"{names[index]} in the middle")
         motion = thing.motion if len(thing.motions) == 1 and index not in led else None
         if own and motion and not any(goes_so(one, motion) for one in own):
             line = f"{names[index]} going {motion.direction}"
             yield Violation("direction", str(motion.direction), line)
+
+
+def _is_amid(said: SceneObject, own: Sequence[BodyBoxes]) -> bool:
+    """Whether one that stays in its place at first is about the middle of the image then."""
+    first = [one.seen[: len(one.seen) // 3 + 1, 0] for one in own]
+    rests = bool(said.motions) and said.motions[0].kind in _RESTING
+    return not rests or any(bool((np.abs(one) <= _AMID).any()) for one in first)
 
 
 def _list_knocked(description: SceneDescription) -> list[int]:

@@ -184,8 +184,7 @@ def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> st
     kind = _see_inside(kind, draft.nouns[thing["noun"]].habitat, noun)
     if kind in WAYS:
         return _choose_way(draft, kind, index, other)
-    goes_among = draft.things[other]["count"] > 1 and draft.can_go(other)
-    if kind == "in" and goes_among and draft.can_go(index):
+    if kind == "in" and draft.things[other]["count"] > 1 and _are_going(draft, index, other):
         return "between"  # "in a traffic jam", "in a crowd"
     ends = [one.get("end_pace") for one in thing["motions"]][-1:]
     if kind == "front" and ends == [0.0]:
@@ -209,6 +208,11 @@ def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> st
     if kind == "behind" and draft.goes_like(index, other):  # who brakes keeps no pace
         return "" if "end_pace" in thing["motions"][0] else "follow"
     return kind
+
+
+def _are_going(draft: SceneDraft, *indices: int) -> bool:
+    """Whether all go by themselves."""
+    return all(map(draft.can_go, indices))
 
 
 def _choose_way(draft: SceneDraft, kind: str, index: int, other: int) -> str:
