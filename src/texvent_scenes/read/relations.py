@@ -181,11 +181,11 @@ def _use(thing: Mapping[str, Any], noun: str) -> str:
 def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> str:
     """The relation that is meant, which depends on what stands in it; "" = none."""
     thing, noun = draft.things[index], draft.things[other]["noun"]
+    is_among = draft.things[other]["count"] > 1 and _are_going(draft, index, other)
+    kind = "between" if kind == "in" and is_among else kind  # "in a traffic jam", "in a crowd"
     kind = _see_inside(kind, draft.nouns[thing["noun"]].habitat, noun)
     if kind in WAYS:
         return _choose_way(draft, kind, index, other)
-    if kind == "in" and draft.things[other]["count"] > 1 and _are_going(draft, index, other):
-        return "between"  # "in a traffic jam", "in a crowd"
     ends = [one.get("end_pace") for one in thing["motions"]][-1:]
     if kind == "front" and ends == [0.0]:
         return "to"  # "stops in front of a dog", which is in its way
