@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from texvent.prompt_report import Substitution
@@ -15,6 +15,7 @@ from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_values
 from texvent_scenes.read.draft.copies import OPPOSITE, halve, take_turns
 from texvent_scenes.read.draft.scene_draft import SceneDraft
+from texvent_scenes.read.draft.setting import leave_sky
 from texvent_scenes.read.draft.sources import find_sources
 from texvent_scenes.read.parsing.lexicon import deeds, word_set, word_table
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
@@ -62,7 +63,9 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
     _find_opponents(draft)
     _hang_up(draft)
     find_sources(draft)
+    leave_sky(draft)
     _turn_marks(draft)
+    _skate_on_ice(draft)
     _bring_home(draft)
     _limit_counts(draft)
     _look_up(draft)
@@ -267,6 +270,20 @@ def _bring_home(draft: SceneDraft) -> None:
             draft.show(before)
         else:
             draft.merge_compound(before, head, noun)
+
+
+def _skate_on_ice(draft: SceneDraft) -> None:
+    """Have those skate on blades who are on ice, or named so."""
+    is_ice = draft.parts["place"].get("name") in ("ice rink", "snow")
+    for index, thing in enumerate(draft.things):
+        skating = [one for one in thing["motions"] if one["kind"] == "skate"]
+        for one in skating if is_ice or thing["noun"] == "figure skater" else ():
+            one["kind"] = "ice skate"
+            draft.claims = {
+                at: [replace(each, value="ice skate")
+                     if (each.subject, each.value) == (index, "skate") else each for each in claims]
+                for at, claims in draft.claims.items()
+            }  # fmt: skip
 
 
 _LIGHT = 0.3

@@ -10,7 +10,7 @@ from texvent_scenes.read.draft.abilities import Indices
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.draft.setting import names_place, set_scene
 from texvent_scenes.read.modifiers import say_word
-from texvent_scenes.read.parsing.groups import Phrase, heads_of, words_of
+from texvent_scenes.read.parsing.groups import Phrase, heads_of, nouns_of, words_of
 from texvent_scenes.read.parsing.lexicon import word_set
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
 from texvent_scenes.read.parts import are_own_parts
@@ -91,6 +91,9 @@ def _choose_placed(
         return told  # "in a room with candles on the table"
     if kind == "on" and draft.names(told) <= word_set("things", "flames"):
         return told or subjects  # "blows out the candles on a cake"
+    acted = draft.targets(subjects, ("act on", "hold", "lift"))
+    if kind in ("in", "on") and acted and _fill_vessels(draft, phrase, subjects):
+        return acted  # "arranges flowers in a vase"
     kinds = draft.acts(subjects)
     if kind in (kinds if subjects else PLACING):
         return told
@@ -104,6 +107,13 @@ def _choose_placed(
         return [*dict.fromkeys((*like, *told))]
     is_passed = before in word_set("things", "passed") | {"into"}
     return told if kind in PLACING and is_passed else subjects
+
+
+def _fill_vessels(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
+    """Whether a phrase names vessels that are too small for the people of whom it is said."""
+    nouns = {*nouns_of(phrase.groups)}
+    small = word_set("things", "vessels") - word_set("things", "roomy")
+    return bool(nouns) and nouns <= small and draft.names(subjects) <= PERSON_NOUNS
 
 
 def apply_phrase(draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: Indices) -> list[int]:

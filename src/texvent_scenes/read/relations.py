@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from texvent_scenes.models.activities import AIMED, ON_TOP, PERSON_NOUNS
+from texvent_scenes.models.activities import ACTIVITIES, AIMED, ON_TOP, PERSON_NOUNS
 from texvent_scenes.models.anchors import has_rim, takes_in
 from texvent_scenes.models.people.outfit import can_be_worn, list_props
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
@@ -24,6 +24,8 @@ _RUNNING = frozenset({"slide", "roll", "drive", "move"})
 _ROUND = frozenset({"on", "past", "at", "in", "through", "into"})
 """Relations to a ring that those who go have along it."""
 _SMALL = nouns_with("in hand or on something")
+_BED = nouns_with("seat") | word_set("things", "tables")
+_WORKED_AT = nouns_with("worked at")
 _GROUND = nouns_with("way") | {"rug"}
 _HANDED = {"into": "in", "in": "in", "on": "on", "to": "on", "above": "on"}
 
@@ -48,8 +50,8 @@ def relate_one(draft: SceneDraft, kind: str, index: int, targets: Indices) -> bo
         if not any(draft.can_go(one) and draft.noun(one).motion != "roll"
                    for one in (index, *targets)):  # fmt: skip
             return False  # "a vase with roses", "a disc with a dot"
-    if kind == "on" and noun in word_set("things", "peaks"):
-        return False  # its slopes bear nothing
+    if kind == "on" and _bears_nobody(draft, index, noun, targets):
+        return False
     targets = [ridden_by(draft, one, kind) for one in targets]  # "behind the rider"
     used = _use(thing, noun) if kind in ("in", "into", "from", "on", "off") else ""
     kind = used or _choose_relation(draft, kind, index, targets[0])
@@ -167,6 +169,43 @@ def _bear(draft: SceneDraft, index: int, targets: Indices) -> str:
         return ""
     is_put = bearer in word_set("things", "laden") and first not in nouns_with("seat")
     return "on" if is_put else "in" if bearer in word_set("things", "vessels") else ""
+
+
+def _bears_nobody(draft: SceneDraft, index: int, noun: str, targets: Indices) -> bool:
+    """Whether nothing is put on a thing: slopes of a peak; who works at it stands by it then."""
+    thing = draft.things[index]
+    is_worked_at = noun in _WORKED_AT and _works(thing) and not _use(thing, noun)
+    is_worked_at |= noun in _BED and _has_bench(thing) and not _use(thing, noun)
+    if is_worked_at:
+        draft.relate(index, "beside", targets)
+    return is_worked_at or noun in word_set("things", "peaks")
+
+
+def _has_bench(thing: Mapping[str, Any]) -> bool:
+    """Whether an act comes with a bench of its own, which stands on no bed."""
+    props = [prop for one in thing["motions"] for prop in list_props(one["kind"])]
+    return any(prop.anchor == "ground" and prop.name.startswith("bench") for prop in props)
+
+
+def _works(thing: Mapping[str, Any]) -> bool:
+    """Whether a person does something with the hands there."""
+    does = {one["kind"] for one in thing["motions"]} & ACTIVITIES.keys()
+    stays = {
+        "stand",
+        "sit",
+        "lie",
+        "jump",
+        "dance",
+        "walk",
+        "run",
+        "crawl",
+        "climb",
+        "sit down",
+        "stand up",
+        "kneel",
+        "crouch",
+    }
+    return thing["noun"] in PERSON_NOUNS and bool(does - stays)
 
 
 def _use(thing: Mapping[str, Any], noun: str) -> str:

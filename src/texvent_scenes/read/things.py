@@ -18,7 +18,7 @@ from texvent_scenes.read.draft.copies import (
     stack,
 )
 from texvent_scenes.read.draft.scene_draft import SceneDraft, add_motion
-from texvent_scenes.read.draft.setting import names_place, set_place, set_scene
+from texvent_scenes.read.draft.setting import go_inside, names_place, set_place, set_scene
 from texvent_scenes.read.modifiers import say_modifiers, say_word
 from texvent_scenes.read.parsing.groups import Group, Phrase, is_trajectory, ordinals
 from texvent_scenes.read.parsing.lexicon import (
@@ -73,6 +73,8 @@ def name_group(
         group = replace(group, head=head)
     if head is not None and (formed := _list_formed(group, head)):
         return [index for one in formed for index in name_group(draft, one, relation, owners)]
+    if go_inside(draft, group, relation, owners):
+        return []
     if head is not None and names_place(head, relation) and not is_trajectory(group):
         set_place(draft, group, head, relation)
     elif head is not None and (whole := _find_whole(draft, group)):

@@ -74,6 +74,8 @@ class SceneDraft(Abilities):
     phases: int = 0
     """Times that "then" was said: effects begin in that phase, light and weather do not change."""
     effects: list[dict[str, Any]] = field(default_factory=list)
+    is_over: bool = False
+    """Whether the sky is named, and not that anything is in it."""
     """Effects, each with the index of its source."""
     absent: list[str] = field(default_factory=list)
     parts: dict[str, dict[str, Any]] = field(
@@ -274,6 +276,9 @@ def add_motion(thing: dict[str, Any], act: VerbSense, *, goes_on: bool = False) 
         return
     if goes_on and act.kind == "move" and (last["kind"] in MEANS or "speed_m_s" in last):
         last |= {"direction": act.direction} if act.direction else {}
+        return
+    if goes_on and act.kind in MEANS and act.kind == last["kind"]:
+        last.setdefault("pace", act.pace)  # "runs through a park, chasing butterflies"
         return
     if act.kind == "move" and act.end_pace == 0.0 and last["kind"] in _TURNING:
         last["end_pace"] = 0.0  # "a spinning coin comes to rest"

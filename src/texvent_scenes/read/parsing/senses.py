@@ -191,6 +191,8 @@ def _see_beside(token: Token, tokens: Sequence[Token]) -> Token:
     is_led = token_at(tokens, token.at - 1).has("articles", "field")  # no camera's "pan"
     if row is None or not (senses or token.is_unknown or is_led):
         return token
+    if "place" in row:
+        return replace(token, senses=(Sense("place", row["place"]),))
     sense = replace(senses[0] if senses else NounSense(""), noun=row["noun"])
     sense = replace(
         sense, is_plural=sense.is_plural or token.text in list_plurals(sense.noun or "-")
