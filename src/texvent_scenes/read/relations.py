@@ -33,6 +33,8 @@ _HANDED = {"into": "in", "in": "in", "on": "on", "to": "on", "above": "on"}
 def relate_one(draft: SceneDraft, kind: str, index: int, targets: Indices) -> bool:
     """Relate a thing to others as far as scenes can; whether it is so."""
     thing, noun = draft.things[index], draft.things[targets[0]]["noun"]
+    if kind == "with" and _has_other_tool(thing, noun):
+        return False  # "waters flowers with a hose", and has a can
     if kind == "with" and len(parts := _part_worn(draft, targets)) > 1:
         return all([relate_one(draft, kind, index, each) for each in parts])
     if kind == "with" and thing["noun"] in trait_values("circled on"):
@@ -175,6 +177,14 @@ def _bears_nobody(draft: SceneDraft, index: int, noun: str, targets: Indices) ->
     if is_worked_at:
         draft.relate(index, "beside", targets)
     return is_worked_at or noun in word_set("things", "peaks")
+
+
+def _has_other_tool(thing: Mapping[str, Any], noun: str) -> bool:
+    """Whether an act has another tool in the right hand than the one that is said."""
+    props = [prop for one in thing["motions"] for prop in list_props(one["kind"])]
+    is_tool = noun in _SMALL | nouns_with("held as a tool") | {"hose"} and not can_be_worn(noun)
+    has_tool = any(prop.anchor == "right hand" for prop in props)
+    return is_tool and has_tool and not any(noun in prop.nouns for prop in props)
 
 
 def _has_bench(thing: Mapping[str, Any]) -> bool:

@@ -169,6 +169,7 @@ class Abilities:
             )
             is_moved &= verb.relation not in ACTED or not self._are_moved(subjects, objects)
             is_moved &= verb.relation != "ride" or all(map(self.may_carry, objects))
+            is_moved &= not needs_body or not self.names(objects) & word_set("things", "tables")
             is_moved &= verb.relation != "move over"
             is_moved &= verb.relation != "beside" or not is_acting  # no hand only stands by
             return bool(verb.relation) and (is_acting or not needs_hands) and is_moved
