@@ -283,8 +283,11 @@ def is_laid(staged: StagedClip, claim: Claim) -> bool:
 
 
 def moves(staged: StagedClip, claim: Claim) -> bool:
-    """Whether it leaves its place, or is on foot where it is: on a treadmill."""
+    """Whether it leaves its place, or is on foot where it is; parts of machines move."""
     for one in staged.own(claim):
+        is_fixed = one.noun.is_working and one.noun.speed_m_s == 0.0
+        if is_fixed and staged.departure(one).max() > _GROUNDED * one.size_m:
+            continue
         places = np.array([one.middle(at) for at in staged.fine_times])
         does = {one.track.at(at).activity.split()[0] for at in staged.times}
         if np.ptp(places, axis=0).max() < _GROUNDED * one.size_m and not does & TRAVELLING:

@@ -62,6 +62,8 @@ _CARRIED = ("stand", "orbit")
 _RESTS = ("stand", "stand open", "stand closed", "hang", "work", "sit", "lie", "show red",
           "show amber", "show green")  # fmt: skip
 """Motions that nothing needs to show."""
+_VEILED, _VEILED_LEVELS = 0.001, 14.0
+"""Least share of a small picture, and difference of its pixels, that show a body in fog or in the dark."""
 _POINT = 1e-6
 """Radius of particles that are too small to be seen, in sizes of an effect."""
 _LATER_S = (0.13, 0.0171)
@@ -133,6 +135,8 @@ def find_unshown(
     for one in description.objects:
         if one.is_lit and one.noun not in LAMPS:
             yield Violation("is_lit", "", f"lights of the {one.noun}")
+    if said.weather == "fog" or description.light.kind in ("night", "moonlight"):
+        yield from _find_veiled(scene, description, drawn)
     yield from _find_rest(scene, description, drawn)
     yield from _find_unturned(scene, description, times)
     is_said = not any(one.startswith(NO_PLACE) for one in description.notes)
@@ -149,6 +153,20 @@ def find_unshown(
         scene, said, is_bare=is_bare, times=times,
         names_sky=bool(re.search(r"\bsk(y|ies)\b", description.prompt.casefold())),
     )  # fmt: skip
+
+
+def _find_veiled(
+    scene: ComposedScene, description: SceneDescription, drawn: SmallPictures
+) -> Iterator[Violation]:
+    """Bodies that leave no trace in fog or in the dark."""
+    cause = "fog" if description.place.weather == "fog" else "the dark"
+    for index, one in enumerate(description.objects):
+        rest = tuple(each for each in scene.actors if each.object_index != index)
+        hidden = replace(scene, actors=rest)
+        if len(rest) < len(scene.actors) and not drawn.differ(
+            hidden, least=_VEILED, levels=_VEILED_LEVELS
+        ):
+            yield Violation("noun", one.noun, f"the {one.noun}: {cause} hides it")
 
 
 def _find_unturned(
@@ -246,6 +264,8 @@ def _list_without(
     for name in _SURROUNDINGS:
         value, usual = getattr(said, name), getattr(Place, name)
         is_so = name == "has_snow" and scene.place.ground is Ground.SNOW  # by itself
+        is_so |= name == "clouds" and value == 0.0  # where the sky is in view it is so
+        is_so |= name == "is_wet" and (said.weather == "rain" or not value)
         if value != usual and value not in FALLING and not is_so:
             yield name, value, without(place=replace(said, **{name: usual}))
     if description.light.kind not in (None, "day"):

@@ -40,7 +40,7 @@ _FINE_SIZE, _POINTS, _AROUND = SensorSize(160, 120), 15, 0.25
 extents in the image."""
 _LEAST_AROUND, _MOSTLY_SKY = 0.4, 0.8
 """Least share of these points in the image; share of them that are sky, and of the instants."""
-_CLEAR_M, MOST_FOG = 150.0, 2.5
+_CLEAR_M, MOST_FOG = 150.0, 1.7
 """Least distance of sight in which the horizon is seen, m; distance, in those of sight, up to which
 fog leaves something of a body or a ground."""
 _WIDE = 2.0
@@ -72,6 +72,9 @@ def find_unseen_place(
             continue
         yield Violation("backdrops", "", f"the {one} in the distance")
         yield Violation("place", one, "")
+    far = [one.noun for one in scene.place.scenery if one.where == "far"]
+    if is_veiled and said.name in far:
+        yield Violation("place", str(said.name), f"the {said.name}: fog hides it")
     crossings = scene.animated_environment.base.road_crossings
     areas = [np.array([x, y, 0.0]) + _REACH_M * np.array(_SIDES) for x, y, *_ in crossings]
     if said.road and not any(_is_mostly_inside(each, one) for each in areas for one in cameras):

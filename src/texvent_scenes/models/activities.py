@@ -135,6 +135,7 @@ TIMED = frozenset(name for name, one in ANIMAL_ACTIVITIES.items() if one.is_time
 """Acts of parts that happen once: a door opens."""
 
 
+@cache
 def limbs_of(activity: str) -> frozenset[str]:
     """Channels of an act of animals without which it is not seen: paws, head, the trunk's roll."""
     row = motion_of("animal_activities", activity)

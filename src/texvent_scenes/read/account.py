@@ -15,6 +15,7 @@ from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_values
 from texvent_scenes.read.draft.copies import OPPOSITE, halve, take_turns
 from texvent_scenes.read.draft.scene_draft import SceneDraft
+from texvent_scenes.read.draft.setting import leave_sky
 from texvent_scenes.read.draft.sources import find_sources
 from texvent_scenes.read.parsing.lexicon import deeds, word_set, word_table
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
@@ -62,6 +63,7 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
     _find_opponents(draft)
     _hang_up(draft)
     find_sources(draft)
+    leave_sky(draft)
     _turn_marks(draft)
     _skate_on_ice(draft)
     _bring_home(draft)

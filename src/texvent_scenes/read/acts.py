@@ -109,7 +109,7 @@ def _relate_act(draft: SceneDraft, kind: str, verb: Token, index: int, objects: 
     if kind == "follow" and about & nouns_with("runs on"):
         kind = "past"  # "follows a pipe"
     is_shot = verb.text.split()[0] in word_set("things", "shooting")
-    if kind == "throw" and is_shot and about == {"football"}:
+    if kind == "throw" and is_shot and about and about <= word_set("things", "by_foot"):
         kind = "kick"
     if kind == "lead":
         return lead_on(draft, verb, index, objects)
@@ -192,6 +192,11 @@ def _do(draft: SceneDraft, act: VerbSense, verb: Token, index: int) -> None:
         return  # its water does so
     if act.who not in ("source", "lamp"):
         before = [one["kind"] for one in thing["motions"]]
+        if before[-1:] and before[-1].startswith("show ") and act.kind.startswith("turn "):
+            thing["motions"].pop()  # "a red light turns green", as it does anyway
+            state = before.pop()
+            draft.claims = {at: [one for one in said if one.value != state]
+                            for at, said in draft.claims.items()}  # fmt: skip
         add_motion(thing, act, goes_on=draft.last.goes_on)
         if (row := ANIMAL_ACTIVITIES.get(act.kind)) and row.effect:
             draft.add_effect(verb, row.effect, [index])

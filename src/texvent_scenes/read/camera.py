@@ -29,7 +29,7 @@ def is_ego(draft: SceneDraft, clause: Clause) -> bool:
     """Whether a camera goes that is not named: "driving through a city"."""
     verbs = clause.verb.verbs("ing") if clause.verb is not None else ()
     travels = any(one.value.kind.startswith("travel") for one in verbs)
-    travels |= _is_driven(draft) and any(one.value.kind == "follow" for one in verbs)
+    travels |= draft.is_driven and any(one.value.kind in ("follow", "dolly in") for one in verbs)
     is_place = all(one.head and names_place(one.head, "") for one in clause.subjects)
     before = draft.beside(clause.verb or NO_TOKEN, -1)
     kinds = {one.value[1] for one in before.all("scene")} | {one.kind for one in before.senses}
@@ -114,13 +114,16 @@ def apply_to_camera(draft: SceneDraft, clause: Clause, *, is_own: bool) -> None:
     """Move the camera as a clause says, and name what is in view."""
     targets = list[int]()
     move = find_move(draft, clause)
-    is_driven = _is_driven(draft) or (move or {}).get("means") == "drive"
-    is_led = is_driven and move == split_move("follow")
+    is_driven = draft.is_driven or (move or {}).get("means") == "drive"
+    is_led = is_driven and move in (split_move("follow"), split_move("dolly in"))
     for group in clause.subjects if clause.about != "company" else ():
         name_group(draft, group, "in")
     for group in clause.objects if is_led or not is_own else ():
         targets += name_group(draft, group)
-    if is_led and _go_ahead(draft, clause.verb, targets):
+    if is_led and move == split_move("dolly in") and clause.verb is not None:
+        draft.claim(clause.verb, "camera", "towards", [None], targets)  # "approaching a bridge"
+        move = None
+    elif is_led and _go_ahead(draft, clause.verb, targets):
         move = None
     _lead_followed(draft, move, targets)
     for one in clause.after:
@@ -142,7 +145,8 @@ def apply_to_camera(draft: SceneDraft, clause: Clause, *, is_own: bool) -> None:
             if found and kind in ("through", "out of"):
                 is_side = move is None or not go_through(draft, move, one.preposition, found)
             is_over = look_over(draft, one.preposition, found)
-            claim_way(draft, move, one.preposition, [] if is_over else found)
+            is_low = kind == "above" and _keeps_to_ground(draft, move)
+            claim_way(draft, move, one.preposition, [] if is_over or is_low else found)
             heads = heads_of(one.groups)
             words = heads or [each for group in one.groups for each in group.unknown]
             is_side |= bool(one.groups) and not any(map(draft.shows, words))
@@ -152,6 +156,7 @@ def apply_to_camera(draft: SceneDraft, clause: Clause, *, is_own: bool) -> None:
             is_side |= is_place and not found and kind in ("out of", "into")  # it stays there
             goes = any(each["kind"] == "travel" for each in (*draft.moves, move or {"kind": ""}))
             is_side |= goes and bool(found) and kind in ("up", "down")  # it keeps its height
+            is_side |= bool(found) and is_low
             draft.mark(one.preposition, "lost" if is_side else "shown")  # nothing is put there
     if move is not None:
         draft.add_move(move)
@@ -168,10 +173,10 @@ def _lead_followed(draft: SceneDraft, move: Mapping[str, Any] | None, targets: I
         thing["motions"] = thing["motions"] or [{"kind": "move"}]
 
 
-def _is_driven(draft: SceneDraft) -> bool:
-    """Whether a prompt says of its view that it is from a vehicle on a road."""
-    shots = {sense.value for token in draft.tokens for sense in token.all("shot")}
-    return _DRIVEN in shots or any(one.get("means") == "drive" for one in draft.moves)
+def _keeps_to_ground(draft: SceneDraft, move: Mapping[str, Any] | None) -> bool:
+    """Whether a camera goes over ground, and so over nothing that stands there."""
+    travels = [one for one in (*draft.moves, move or {}) if one.get("kind") == "travel"]
+    return bool(travels) and all(one.get("means") not in ("fly", None) for one in travels)
 
 
 def _go_ahead(draft: SceneDraft, token: Token | None, targets: Indices) -> bool:

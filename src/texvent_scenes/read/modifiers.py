@@ -98,6 +98,8 @@ def say_word(draft: SceneDraft, token: Token, subjects: Indices) -> None:
         is_aside = token.text in word_set("things", "aside")
         draft.claim(token, "aside", "", subjects if is_aside else [])
         draft.claim(token, "reverse", "", subjects if value == "backward" else [])
+        is_close = value == "near" and token.text != "in the foreground"
+        draft.claim(token, "near", "", subjects if is_close else [])
         is_lamp = field == "rate_hz" and all("blink_hz" in one for one in things)
         draft.claim(token, "shine" if is_lamp else SEEN, "", subjects)
     else:
@@ -199,6 +201,9 @@ def _say_field(draft: SceneDraft, token: Token, said: Sense, index: int) -> None
         name = "end_m_s" if is_end else name
     if name == "direction" and motions[-1:] and motions[-1]["kind"] == "hover" and value in _ASIDE:
         motions[-1]["kind"] = "move"  # "a bubble floats past"
+    if name == "direction" and motions and value in ("across", "diagonal"):
+        held = {"across", "diagonal"} & {motions[-1].get("direction")}
+        value = "diagonal" if held else value  # "diagonally across the screen"
     set_field(draft.things[index], said.kind, name, value)
     draft.quantities[index, name] = value
 

@@ -20,10 +20,14 @@ from texvent_scenes.read.things import name_group, pick_group
 from texvent_scenes.spec.data import PLACING, WAYS
 
 
+_OF_NOBODY = {("light", "kind"), ("place", "wave_height")}
+"""Part and name of what clauses about light and waves say."""
+
+
 def find_subjects(draft: SceneDraft, clause: Clause) -> list[int]:
     """Objects that a clause is about; in company, those that go by themselves."""
     heads = [one.head for one in clause.subjects]
-    if clause.about == "led":
+    if clause.about == "told":
         return draft.last.nearest if all(one and draft.shows(one) for one in heads) else []
     if clause.about == "company":
         if clause.is_of_effect or not all(one and draft.shows(one) for one in heads):
@@ -57,6 +61,9 @@ def find_subjects(draft: SceneDraft, clause: Clause) -> list[int]:
     second = clause.after[1] if len(clause.after) > 1 else None
     if isinstance(first, Token) and isinstance(second, Token) and clause.verb is None:
         is_open |= first.has("scene") and bool(second.verbs("s", "base"))  # "snow flies up"
+    if isinstance(first, Token) and " " in first.text:
+        said = {one.value[:2] for one in first.all("scene")}
+        is_open |= not said.isdisjoint(_OF_NOBODY)  # "sunlight shines through the trees"
     if is_open and not clause.about:
         return []  # "as wugs dax against it"
     return draft.last.nearest if clause.about == "nearest" else _find_meant(draft, clause)

@@ -126,7 +126,8 @@ def apply_phrase(draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: In
     if not phrase.groups or find_mutual(phrase.groups):
         _relate_back(draft, kind, phrase, subjects)
         return []
-    if dress(draft, phrase, subjects) or names_formation(draft, phrase, subjects):
+    is_told = _is_before_ego(draft, phrase, subjects, moved) or dress(draft, phrase, subjects)
+    if is_told or names_formation(draft, phrase, subjects):
         return []
     _look_at_sky(draft, phrase, subjects)
     targets = list[int]()
@@ -156,6 +157,25 @@ def apply_phrase(draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: In
     if is_lone and any(map(draft.shows, words_of(phrase.groups))):
         draft.show(token)
     return targets
+
+
+def _is_before_ego(
+    draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: Indices
+) -> bool:  # fmt: skip
+    """Apply "in front of the car", where a camera drives and no other car is named."""
+    heads = heads_of(phrase.groups)
+    nouns = {noun for one in heads for noun in one.nouns}
+    is_ego = draft.is_driven and phrase.preposition.relation == "front" and bool(subjects)
+    is_ego &= len(heads) == 1 and [one.article for one in phrase.groups] == ["the"]
+    if not is_ego or not nouns or draft.find(nouns):
+        return False
+    if any(draft.nouns[one].motion != "drive" for one in nouns if one in draft.nouns):
+        return False
+    draft.show(heads[0], phrase.preposition)
+    draft.claim(phrase.preposition, "camera", "before", [None], subjects)
+    for motion in (one for n in moved for one in draft.things[n]["motions"][-1:]):
+        motion.setdefault("direction", "across")
+    return True
 
 
 def _look_at_sky(draft: SceneDraft, phrase: Phrase, subjects: Indices) -> None:

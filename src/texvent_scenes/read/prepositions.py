@@ -108,7 +108,7 @@ def names_sky(phrase: Phrase) -> bool:
     skies = {one.value for word in words for one in word.all("place")} & {"sky"}
     lights = any(one.value[1] in ("light", "clouds") or one.value[:2] == ("light", "kind")
                  for word in words for one in word.all("scene"))  # fmt: skip
-    clouds = any("cloud" in one.nouns for one in words)
+    clouds = any(one.nouns & word_set("things", "aloft") for one in words)
     return phrase.preposition.text == "against" and (bool(skies) or lights or clouds)
 
 

@@ -49,7 +49,8 @@ def relate_one(draft: SceneDraft, kind: str, index: int, targets: Indices) -> bo
             return all([draft.relate(one, borne, [index]) for one in targets])
         if noun in nouns_with("towering"):
             return True  # it stands in the distance
-        if not any(map(draft.can_go, (index, *targets))):
+        if not any(draft.can_go(one) and draft.noun(one).motion != "roll"
+                   for one in (index, *targets)):  # fmt: skip
             return False  # "a vase with roses", "a disc with a dot"
     if kind == "on" and _bears_nobody(draft, index, noun, targets):
         return False
@@ -162,7 +163,10 @@ def _bear(draft: SceneDraft, index: int, targets: Indices) -> str:
         return "in"
     if all(map(draft.walks, targets)):
         is_ridden = bearer in word_set("things", "mounts") and first in PERSON_NOUNS
-        return "ride" if is_ridden else "on" if bearer in nouns_with("seat") else ""
+        if trait_value("seats", bearer) is not None and first in PERSON_NOUNS:
+            return "in"  # "a boat with two men"
+        leads_on = nouns_with("seat") | nouns_with("way") | trait_values("slope").keys()
+        return "ride" if is_ridden else "on" if bearer in leads_on else ""
     if draft.can_go(targets[0]):
         return ""
     is_put = bearer in word_set("things", "laden") and first not in nouns_with("seat")

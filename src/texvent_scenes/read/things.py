@@ -52,6 +52,11 @@ def pick_group(draft: SceneDraft, group: Group, known: int) -> list[int]:
     picked = add_like(draft, like[0]) if is_new else pick(draft, group.picks, group.count, whole)
     which = word_set("things", "members") | ({*ordinals()} if not is_new else set())
     for token in (*group.modifiers, *group.unknown) if picked else ():
+        if token.text in ("left", "right"):  # "the left one"
+            for index in picked:
+                draft.things[index]["placement"] = token.text
+            draft.show(token)
+            continue
         say_word(draft, token, picked)
         draft.show(*([token] if token.text == group.picks and token.text not in which else []))
     return picked

@@ -300,8 +300,8 @@ class Place:
     """Whether scenery and furniture are left out."""
     has_snow: bool = False
     """Whether snow lies on the ground."""
-    is_wet: bool = False
-    """Whether the ground is wet, as after rain."""
+    is_wet: bool | None = None
+    """Whether the ground is wet, as after rain; left out: where it rains."""
     wave_height: Annotated[float, Between(0.0, 20.0)] = 1.0
     """Height of water waves, as a multiple of those in a light breeze."""
 

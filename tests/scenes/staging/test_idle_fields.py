@@ -293,11 +293,17 @@ def test_what_waits_in_the_air_hangs_on_a_thread_above_it(noun, is_held):
     late, once = (
         stage(thing(noun, *motions)) for motions in ((("stand",), ("fall",)), (("fall",),))
     )
-    threads = len(late.still.shape) - len(once.still.shape)
-    assert threads == is_held
+    assert (len(late.threads), len(once.threads)) == (is_held, 0)
     body = late.actors[0].corners(0.0)
     middle = 0.5 * (body.min(axis=0) + body.max(axis=0))
-    for to_world in late.still.to_world[len(late.still.shape) - threads :]:
+    for hung, until_s in late.threads:
+        to_world = hung.parts[0].to_body
+        assert late.actors[0].corners(until_s)[:, 2].min() == pytest.approx(body[:, 2].min())
+        assert late.actors[0].corners(until_s + 0.1)[:, 2].min() < body[:, 2].min() - 0.01
+        for at_s, reach_m in ((until_s - 1e-3, 10.0), (until_s, 0.01)):
+            drawn = late.primitives(at_s)
+            longest = np.linalg.norm(drawn.to_world[:, :, 2], axis=1)[drawn.instance == 0]
+            assert (longest.max() > reach_m) == (reach_m == 10.0)
         ends = to_world[:, 3] + np.outer((-1.0, 1.0), to_world[:, 2])
         assert np.allclose(ends[:, :2], middle[:2], atol=1e-6)
         assert middle[2] < ends[:, 2].min() < body[:, 2].max() < ends[:, 2].max() - 10.0

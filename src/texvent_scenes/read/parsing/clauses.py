@@ -38,7 +38,7 @@ class Clause:
     """Whether its object is a pronoun: "overtakes them"."""
     about: str = ""
     """Subject that is not named: "camera"; that of the clause before, "same", "meanwhile" or "then"
-    (later); "nearest", its last group; "company", either: "a boat with dolphins jumping"; "led",
+    (later); "nearest", its last group; "company", either: "a boat with dolphins jumping"; "told",
     its objects: "watches a dog jump". "where": they are by its last group."""
 
     @property
@@ -137,8 +137,10 @@ class _Parser(GroupReader):
         is_part = any(one.picks for one in clause.subjects)
         if is_part and clause.verb is None and token.has("verb"):
             return Clause(about="same")  # "two balls, one red and one blue, collide"
-        if clause.verb is not None and token.verbs("ing") and not after.has("noun"):
-            return Clause(about="meanwhile")  # "sits, reading"
+        takes = {each for one in token.verbs("ing") for each in (one.value.relation, one.value.kind)}
+        is_act = bool(takes & word_set("things", "done_to"))
+        if clause.verb is not None and token.verbs("ing") and (is_act or not after.has("noun")):
+            return Clause(about="meanwhile")  # "sits, reading", "sits, feeding ducks"
         owners, own = word_set("things", "owners"), {after.text, self._token(2).text}
         if token.text in owners and own & word_table("parts").keys():
             return Clause()  # "a fan, its blades spinning"
@@ -187,7 +189,7 @@ class _Parser(GroupReader):
         if clause.verb.text not in _list_leading() or not self._token(is_marked).verbs("base"):
             return None
         self._at += is_marked
-        return Clause(clause.objects, about="led")
+        return Clause(clause.objects, about="told")
 
     # Parts of a clause: each step gives the clause with what it has read, or None
 

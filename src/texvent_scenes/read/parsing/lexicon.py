@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
-from itertools import product
+from itertools import product, repeat
 from types import MappingProxyType
 from typing import Any, TypeAlias
 
@@ -261,9 +261,9 @@ def _list_words() -> Iterator[tuple[str, Sense]]:
     for field, units in word_table("units").items():
         yield from ((unit, Sense("unit", (field, each))) for unit, each in units.items())
     for path, phrases in _walk(word_table("senses")):
-        yield from ((phrase, _sense_of(*path)) for phrase in phrases)
+        yield from zip(phrases, repeat(_sense_of(*path)))
     for row in word_table("acting"):
-        yield from ((phrase, _sense_of(*row["sense"])) for phrase in _list_acting(row))
+        yield from zip(_list_acting(row), repeat(_sense_of(*row["sense"])))
 
 
 def _list_acting(row: Mapping[str, Any]) -> Iterator[str]:

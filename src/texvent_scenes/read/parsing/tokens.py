@@ -341,7 +341,7 @@ def _without_chance(
         and (one.kind != "scene" or one.value[1] != "view" or after == "that"
              or after not in articles | {"to"})
         and not (after in articles and one.kind == "field" and one.value[0] == "is_lit")
-        and not (after in articles and one.kind == "verb" and one.value.who in ("plain", "lamp")
+        and not (after in articles and one.kind == "verb" and one.value.who in ("plain", "lamp", "machine")
                  and one.value.relation is None and words[end] in word_set("things", "particles")
                  and not _is_switched(one.value.who, words[end + 1 : end + 5]))
     )  # fmt: skip
