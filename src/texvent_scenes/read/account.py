@@ -283,10 +283,10 @@ def _skate_on_ice(draft: SceneDraft) -> None:
     is_ice = draft.parts["place"].get("name") in ("ice rink", "snow")
     for index, thing in enumerate(draft.things):
         skating = [one for one in thing["motions"] if one["kind"] == "skate"]
-        for one in skating if is_ice or thing["noun"] == "figure skater" else ():
-            one["kind"] = "ice skate"
+        for one in skating if is_ice or thing["noun"] in nouns_with("skates on ice") else ():
+            one["kind"] = "skate on blades"
             draft.claims = {
-                at: [replace(each, value="ice skate")
+                at: [replace(each, value="skate on blades")
                      if (each.subject, each.value) == (index, "skate") else each for each in claims]
                 for at, claims in draft.claims.items()
             }  # fmt: skip

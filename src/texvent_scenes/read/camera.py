@@ -129,7 +129,9 @@ def apply_to_camera(draft: SceneDraft, clause: Clause, *, is_own: bool) -> None:
     for one in clause.after:
         if not isinstance(one, Phrase):
             set_scene(draft, one)
-        elif is_standpoint(draft, one, move or {}) or (move is not None and _go_along(draft, clause, move, one)):
+        elif is_standpoint(draft, one, move or {}) or (
+            move is not None and _go_along(draft, clause, move, one)
+        ):
             continue
         elif targets:  # as "orbits a car in front of a house"
             apply_phrase(draft, one, targets, targets)

@@ -29,7 +29,7 @@ _THROWN_M = 2.0
 """Greatest extent of what is thrown, caught or kicked, m."""
 _SWITCHED_S = 1.0
 """Time at which a lamp is switched of which no time is said."""
-_CARRYING = nouns_with("carries people") | nouns_with("seat") | {"rocking horse"}
+_CARRYING = nouns_with("carries people") | nouns_with("seat") | nouns_with("ridden in place")
 _ALONG = ("push", "pull", "knock over")
 """Relations of what goes by itself."""
 
