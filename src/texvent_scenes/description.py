@@ -114,7 +114,9 @@ def report_of(description: SceneDescription) -> PromptReport:
         ['objects: noun = "car", motions = [{ kind = "drive", direction = "left" }]']
     """
     objects = tuple(
-        replace(one, id="" if one.id == one.noun else one.id, motions=tuple(map(_said, one.motions)))
+        replace(
+            one, id="" if one.id == one.noun else one.id, motions=tuple(map(_said, one.motions))
+        )
         for one in description.objects
     )
     said = {one.name: getattr(description, one.name) for one in fields(Scene)}
