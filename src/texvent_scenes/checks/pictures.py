@@ -5,6 +5,7 @@ Each picture is compared with one of the scene without what a word says, or of a
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -32,9 +33,10 @@ from texvent_scenes.staging.tracks.phases import PATH_KINDS
 _SIZE, _LEAST_LEVELS, _WHITE, _LEAST_SHARE = SensorSize(120, 90), 6.0, 30.0, 0.002
 """Size of small pictures; difference of a pixel, of 255, that is seen, and that makes snow white;
 share of those that are."""
-_SEEN = {"has_snow": (_WHITE, _LEAST_SHARE), "clouds": (_LEAST_LEVELS, 0.02)}
+_SEEN = {"has_snow": (_WHITE, _LEAST_SHARE), "clouds": (_LEAST_LEVELS, 0.02),
+         "is_wet": (20.0, 0.03)}  # fmt: skip
 """Kind → least difference and share that show it, if others than usual: of clouds no panes that
-mirror them."""
+mirror them, of a wet ground more than a faint sheen."""
 _SOFT = ((25.0, 0.006), (50.0, 0.002))
 """The same of what is soft, as dust, of which a faint trace shows nothing: one is enough."""
 _EMITTERS = {kind: one.emitters for kind, one in EFFECTS.items()}
@@ -128,6 +130,8 @@ def find_unshown(
             line = name.split("_")[-1] if value is True else f"{name} {value}"
             line = f"{line.replace('_', ' ')}: no pixel shows it"
             yield Violation(name, value if is_kind else "", line)
+            if name == "sky" and not any(one.colour == value for one in description.objects):
+                yield Violation("colour", value, "")
     for one in description.objects:
         if one.is_lit and one.noun not in LAMPS:
             yield Violation("is_lit", "", f"lights of the {one.noun}")
@@ -145,7 +149,10 @@ def find_unshown(
         bare = "bare walls and the floor are" if place.is_room else "the ground is"
         line = f"{said.name}, of which only {bare} in view"
         yield Violation("place", said.name or "", line)
-    yield from find_unseen_place(scene, said, is_bare=is_bare, times=times)
+    yield from find_unseen_place(
+        scene, said, is_bare=is_bare, times=times,
+        names_sky=bool(re.search(r"\bsk(y|ies)\b", description.prompt.casefold())),
+    )  # fmt: skip
 
 
 def _find_veiled(

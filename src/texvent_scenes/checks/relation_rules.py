@@ -27,6 +27,8 @@ _ROUNDING = 1e-6
 _FOOT, _BORNE, _SEATED = 0.3, 4, 0.6
 """Points of a foot around its middle, at so much of its size, of which something must be below so
 many; height of a seat over that of who sits there."""
+_TIP = 0.35
+"""Most width of what is on a hill, as a share of that."""
 _LANE_M, _STOPPED, _STOPPED_M = 3.0, 1.5, 8.0
 """Most metres aside of the line of a vehicle; gap to where something stops, in its sizes, and m."""
 _ON_THE_WAY = 0.3
@@ -137,6 +139,12 @@ def _is_on(one: BodyBoxes, other: BodyBoxes) -> _Flags:
         is_below = ((parts[..., 0, :2] <= spot) & (parts[..., 1, :2] >= spot)).all(axis=-1)
         found += (is_below & bears).any(axis=1)
     return np.asarray((found >= _BORNE) & (_clears(one, other, 0.5) <= room))
+
+
+def _is_on_tip(one: BodyBoxes, other: BodyBoxes) -> _Flags:
+    """Whether it is on the other, and so narrow that its foot does not stand out over the tip."""
+    is_narrow = one.size[:, :2].max(axis=1) <= _TIP * other.size[:, :2].min(axis=1)
+    return _is_on(one, other) & is_narrow
 
 
 def _is_on_face(one: BodyBoxes, other: BodyBoxes) -> _Flags:
@@ -334,7 +342,7 @@ def _goes_beside(one: BodyBoxes, other: BodyBoxes) -> _Flags:
 
 RULES: Mapping[str, _Rule] = {
     "follow": _is_following,
-    "on a slope": _is_on,
+    "on a slope": _is_on, "on a tip": _is_on_tip,
     "on": _is_on, "on a face": _is_on_face, "under": _is_under, "around": _is_around,
     "overtake": _overtakes, "going beside": _goes_beside,
     "facing": _faces, "sent": _is_sent,

@@ -57,6 +57,8 @@ def _reach_speed(motion: dict[str, Any], noun: Noun) -> None:
 def finish(draft: SceneDraft, prompt: str) -> Reading:
     """The scene, and its words; one that is lost at one place of the prompt is not shown."""
     _choose_gender(draft)
+    _lead_view(draft)
+    _ride_on(draft)
     _do_deeds(draft)
     _find_opponents(draft)
     _hang_up(draft)
@@ -65,6 +67,8 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
     _turn_marks(draft)
     _bring_home(draft)
     _limit_counts(draft)
+    _look_up(draft)
+    _bring_weather(draft)
     fates: dict[str, str] = {}
     for token, after in zip(draft.tokens, (*draft.tokens[1:], NO_TOKEN), strict=False):
         is_open = token.is_sign or token.is_grammar
@@ -89,6 +93,26 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
         claims=tuple(_list_claims(draft)),
         dependences=tuple(_list_dependences(draft, lost)),
     )
+
+
+def _look_up(draft: SceneDraft) -> None:
+    """Show those whom one sees against the sky in the open sky, or from below."""
+    if not draft.before_sky:
+        return
+    is_free = all(draft.noun(n).habitat == "air" for n in range(len(draft.things)))
+    if is_free and "name" not in draft.parts["place"]:
+        draft.parts["place"]["name"] = "sky"
+    elif not draft.moves:
+        draft.parts["camera"].setdefault("view", "low")
+
+
+def _bring_weather(draft: SceneDraft) -> None:
+    """Add the weather that a word brings: rain of a thunderstorm that is not dry."""
+    for weather, storms in word_table("storms").items():
+        for token in draft.tokens:
+            is_dry = draft.beside(token, -1).text == "dry"
+            if token.text in storms and draft.shows(token) and not is_dry:
+                draft.parts["place"].setdefault("weather", weather)
 
 
 _TIES = ("verb", "pose", "adverb", "relation", "shot", "other")
@@ -194,6 +218,31 @@ def _hang_up(draft: SceneDraft) -> None:
         bare = [one for one in draft.find(named) if not draft.things[one]["relations"]]
         for index in bare[:1] if wall in walls else ():
             draft.relate(index, "on", [draft.add(wall)])
+
+
+def _lead_view(draft: SceneDraft) -> None:
+    """Have vehicles go before a camera that drives where their word says so: "the car ahead"."""
+    ahead, near = word_set("things", "ahead"), word_set("things", "ahead_of_us")
+    for one in draft.things:
+        word = str(one.get("word", ""))
+        if any(word.endswith(f" {each}") for each in near) and not draft.moves:
+            draft.add_move({"kind": "travel", "direction": "forward", "means": "drive"})
+        is_led = any(word.endswith(f" {each}") for each in (*ahead, *near))
+        if is_led and any(each.get("means") == "drive" for each in draft.moves):
+            goes = not one["motions"] and "is_lost" not in one
+            one["motions"] += [{"kind": "drive"}] if goes else []
+            for motion in one["motions"]:
+                if motion["kind"] in ("drive", "move") and "direction" not in motion:
+                    motion["direction"] = "away"
+
+
+def _ride_on(draft: SceneDraft) -> None:
+    """Let riders go of whom nothing is said: "a scooter rider on a road"."""
+    for one in draft.things:
+        mount = one.pop("rides", None)
+        if mount is not None and not (one["motions"] or draft.things[mount]["motions"]):
+            one["motions"] = [{"kind": "sit"}]
+            draft.things[mount]["motions"] = [{"kind": "move"}]
 
 
 def _do_deeds(draft: SceneDraft) -> None:

@@ -20,6 +20,8 @@ from texvent_scenes.read.things import name_group
 
 _STAYING = frozenset({"handheld", "roll", "truck"})
 """Moves of a camera over what it looks at."""
+_DRIVEN = "travel forward drive"
+"""Shot from a vehicle on a road."""
 _FIRST_PERSON = ("camera", "view", "first person")
 
 
@@ -27,6 +29,7 @@ def is_ego(draft: SceneDraft, clause: Clause) -> bool:
     """Whether a camera goes that is not named: "driving through a city"."""
     verbs = clause.verb.verbs("ing") if clause.verb is not None else ()
     travels = any(one.value.kind.startswith("travel") for one in verbs)
+    travels |= _is_driven(draft) and any(one.value.kind == "follow" for one in verbs)
     is_place = all(one.head and names_place(one.head, "") for one in clause.subjects)
     before = draft.beside(clause.verb or NO_TOKEN, -1)
     kinds = {one.value[1] for one in before.all("scene")} | {one.kind for one in before.senses}
@@ -46,7 +49,7 @@ def sit_in(draft: SceneDraft, clause: Clause) -> Clause | None:
     nouns = nouns_of(clause.subjects)
     is_driven = [draft.nouns[one].motion for one in nouns] == ["drive"]
     is_driven &= not any(group.is_plural for group in clause.subjects)
-    if "travel forward drive" not in shots or draft.things or not (is_driven and clause.verb):
+    if _DRIVEN not in shots or draft.things or not (is_driven and clause.verb):
         return None
     way, drive = Sense("relation", "through"), lexicon_of(draft.nouns)[("driving",)]
     first = Phrase(Token("through", clause.verb.at), clause.objects)
@@ -111,10 +114,14 @@ def apply_to_camera(draft: SceneDraft, clause: Clause, *, is_own: bool) -> None:
     """Move the camera as a clause says, and name what is in view."""
     targets = list[int]()
     move = find_move(draft, clause)
+    is_driven = _is_driven(draft) or (move or {}).get("means") == "drive"
+    is_led = is_driven and move == split_move("follow")
     for group in clause.subjects if clause.about != "company" else ():
         name_group(draft, group, "in")
-    for group in clause.objects if not is_own else ():
+    for group in clause.objects if is_led or not is_own else ():
         targets += name_group(draft, group)
+    if is_led and _go_ahead(draft, clause.verb, targets):
+        move = None
     _lead_followed(draft, move, targets)
     for one in clause.after:
         if not isinstance(one, Phrase):
@@ -127,6 +134,8 @@ def apply_to_camera(draft: SceneDraft, clause: Clause, *, is_own: bool) -> None:
             apply_phrase(draft, one, targets, targets)
         else:
             found, kind = apply_phrase(draft, one, [], []), one.preposition.relation
+            if is_driven and kind == "behind" and _go_ahead(draft, one.preposition, found):
+                continue
             targets += found if kind in word_set("things", "aims") else []
             turns = move is not None and move["kind"] in ("pan", "tilt")
             is_swept = turns and one.preposition.text in word_set("things", "swept")
@@ -159,6 +168,24 @@ def _lead_followed(draft: SceneDraft, move: Mapping[str, Any] | None, targets: I
     for index in filter(draft.can_go, followed):
         thing = draft.things[index]
         thing["motions"] = thing["motions"] or [{"kind": "move"}]
+
+
+def _is_driven(draft: SceneDraft) -> bool:
+    """Whether a prompt says of its view that it is from a vehicle on a road."""
+    shots = {sense.value for token in draft.tokens for sense in token.all("shot")}
+    return _DRIVEN in shots or any(one.get("means") == "drive" for one in draft.moves)
+
+
+def _go_ahead(draft: SceneDraft, token: Token | None, targets: Indices) -> bool:
+    """Let vehicles go before a camera that drives behind them; whether they can."""
+    is_so = token is not None and bool(targets)
+    is_so &= all(draft.noun(one).motion == "drive" for one in targets)
+    for index in targets if is_so else ():
+        draft.things[index]["motions"] = [{"kind": "drive", "direction": "away"}]
+    if token is not None and is_so:
+        draft.show(token)
+        draft.claim(token, "camera", "before", [None], targets)
+    return is_so
 
 
 def find_move(draft: SceneDraft, clause: Clause) -> dict[str, Any] | None:

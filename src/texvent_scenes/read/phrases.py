@@ -25,6 +25,7 @@ from texvent_scenes.read.prepositions import (
     is_standpoint,
     keep_distance,
     names_formation,
+    names_sky,
 )
 from texvent_scenes.read.relations import hand_over, relate_one
 from texvent_scenes.read.things import name_group
@@ -83,7 +84,8 @@ def _choose_placed(
     kind, before = phrase.preposition.relation, last.relation
     if kind == "with" and draft.beside(phrase.preposition, -1).has("noun"):
         others = {draft.things[index]["noun"] for index in {*draft.last.nearest} - {*subjects}}
-        if others and others <= PERSON_NOUNS | word_set("things", "vessels"):
+        bearers = word_set("things", "laden") - word_set("things", "tables")
+        if others and others <= PERSON_NOUNS | word_set("things", "vessels") | bearers:
             return draft.last.nearest  # "passes a man with a suitcase", "carries a tray with cups"
     if before == "with" and told and kind in PLACING and draft.beside(last, -1).has("place"):
         return told  # "in a room with candles on the table"
@@ -116,6 +118,7 @@ def apply_phrase(draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: In
         return []
     if dress(draft, phrase, subjects) or names_formation(draft, phrase, subjects):
         return []
+    _look_at_sky(draft, phrase, subjects)
     targets = list[int]()
     owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"
     for group in phrase.groups:
@@ -145,6 +148,13 @@ def apply_phrase(draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: In
     return targets
 
 
+def _look_at_sky(draft: SceneDraft, phrase: Phrase, subjects: Indices) -> None:
+    """See subjects before nothing but the sky, if a phrase says so: "against the sunset"."""
+    if names_sky(phrase):
+        draft.before_sky += subjects
+        draft.claim(phrase.preposition, "sky behind", "", subjects)
+
+
 def _is_spout(draft: SceneDraft, targets: Indices) -> bool:
     """Whether something comes out of a thing below: a nozzle, a funnel."""
     return trait_value("spout", draft.things[targets[0]]["noun"]) is not None
@@ -154,6 +164,8 @@ def _relate_all(
     draft: SceneDraft, token: Token, kind: str, subjects: Indices, targets: Indices
 ) -> None:
     """Apply a preposition to all that it is said of."""
+    if token.text in word_set("things", "led_along") and draft.names(targets) <= nouns_with("way"):
+        kind = "on"  # "walks along a pier"
     if handled := hand_over(draft, token, kind, subjects, targets):
         draft.mark(token, handled)
         return

@@ -32,6 +32,8 @@ def read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
     """The scene that any text describes, of these nouns; what it leaves open stays open."""
     tokens = choose_senses(split_prompt(prompt, lexicon_of(nouns)), nouns)
     draft = SceneDraft(tokens, nouns)
+    if any(one.has("camera") and one.text in word_set("things", "flown") for one in tokens):
+        draft.parts["camera"]["view"] = "aerial"
     for clause in read_clauses(tokens):
         _apply(draft, clause)
     return finish(draft, prompt)

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
-from texvent_scenes.models.tables import nouns_with, trait_value
+from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
 from texvent_scenes.read.draft.abilities import Indices
 from texvent_scenes.read.draft.copies import (
     PLURAL_COUNT,
@@ -192,7 +192,20 @@ def _add_thing(draft: SceneDraft, group: Group, head: Token) -> int:
     draft.name_kind((*group.unknown, *group.modifiers), head, draft.things[index]["noun"])
     if any(one.text in word_set("things", "stacks") for one in group.modifiers):
         stack(draft, index)
+    _mount(draft, group, head, index)
     return index
+
+
+def _mount(draft: SceneDraft, group: Group, head: Token, rider: int) -> None:
+    """Give a rider what the word before says: "a horse rider", "two scooter riders"."""
+    for token in group.words if head.text in word_set("things", "riders") else ():
+        for noun in sorted(token.nouns & trait_values("ridden").keys())[:1]:
+            draft.mark(token, "shown")
+            draft.mark(head, "shown")
+            draft.compounds.pop(head.at, None)
+            mount = draft.add(noun, draft.things[rider]["count"])
+            draft.relate(rider, "on", [mount])
+            draft.things[rider]["rides"] = mount
 
 
 def _pose_again(draft: SceneDraft, group: Group, head: Token) -> list[int]:
@@ -222,7 +235,8 @@ def _name_members(
     if group.of is not None or len(draft.things) + len(members) > MAX_BODIES:
         return []
     draft.show(head)
-    draft.last.nearest = [draft.add(noun, count) for noun, count in members]
+    deed = {"deed": done} if (done := word_table("members_do").get(head.text)) else {}
+    draft.last.nearest = [draft.add(noun, count, **deed) for noun, count in members]
     for index in draft.last.nearest:
         say_modifiers(draft, group, index)
     return draft.last.nearest

@@ -84,6 +84,11 @@ class Abilities:
         """Whether an object is said to go somewhere, by itself or as what it rides."""
         return bool(self.does([index]) & {*MEANS, "move", "roll", "slide", "crawl"})
 
+    def rides(self, index: int) -> bool:
+        """Whether an object is on what is ridden: "two men on motorcycles"."""
+        ridden = self.names(self.targets([index], ["ride", "on"]))
+        return bool(ridden & trait_values("ridden").keys())
+
     def is_swung(self, index: int) -> bool:
         """Whether an object is on a swing."""
         return bool(self.names(self.targets([index], ["on"])) & nouns_with("swings"))
@@ -140,7 +145,9 @@ class Abilities:
             needs_hands &= not is_rider
             needs_body = verb.relation in word_set("things", "of_bodies")  # no hand bends down
             is_acting &= not needs_body or names <= PERSON_NOUNS
-            needs_hands &= verb.relation != "hold" or not self._has_mouths(subjects, objects)
+            is_hung = names <= nouns_with("carries below")
+            has_mouths = is_hung or self._has_mouths(subjects, objects)
+            needs_hands &= verb.relation != "hold" or not has_mouths
             is_moved = verb.object != "work" or self.names(objects) <= swings
             is_moved &= verb.object not in TIMED or all(
                 verb.object in self.noun(n).acts for n in objects
@@ -213,6 +220,7 @@ class Abilities:
             case "walker" | "machine" | "bearer" | "belt":
                 is_load = verb.who in ("bearer", "belt")
                 is_said = has_object and bool(objects) if is_load else not has_object
+                is_said &= verb.who != "walker" or not any(map(self.rides, subjects))
                 return is_said and self._suits(verb.who, names)
             case "body" if any(self.nouns[one].motion not in ("roll", "drive") for one in names):
                 return False  # no dart, which would go along the ground
@@ -223,7 +231,8 @@ class Abilities:
             case "camera":
                 return False
             case noun if noun in self.nouns:
-                return names <= {"hand": HAND_NOUNS}.get(noun, {noun}) and not has_object
+                is_who = names <= {"hand": HAND_NOUNS}.get(noun, {noun})
+                return is_who and (not has_object or bool(verb.relation and objects))
         walks = all(map(self.walks, subjects))
         is_unfit |= is_way and verb.kind == "move"
         is_unfit &= is_ground or is_way or verb.kind == "break" or bool(names & PERSON_NOUNS)

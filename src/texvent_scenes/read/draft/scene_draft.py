@@ -93,6 +93,8 @@ class SceneDraft(Abilities):
     one."""
     compounds: dict[int, str] = field(default_factory=dict)
     """Number of a token → the compound of which it is the head, and which is shown as it."""
+    before_sky: list[int] = field(default_factory=list)
+    """Objects behind which only the sky is seen: "against the sunset"."""
     homes: list[tuple[Token, Token, str]] = field(default_factory=list)
     """Places before names of those who go anywhere, as of "a street cat"; their nouns."""
 

@@ -38,7 +38,7 @@ def set_scene(draft: SceneDraft, token: Token, things: Sequence[Any] = ()) -> bo
     for part, name, value in said:
         if name == "name" and value in ("sky", "indoor") and draft.parts[part].get(name):
             continue  # "in a kitchen, indoors"
-        if value != "day" or name not in draft.parts[part]:  # "overcast daylight"
+        if value not in ("day", "overcast") or name not in draft.parts[part]:  # "dusk, overcast"
             draft.parts[part][name] = value
     is_near = token.text.split()[0] in word_set("things", "nearest")
     draft.claim(token, "macro", "", [None] if is_near else [])
@@ -97,7 +97,8 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
     if is_bare and leave_sky(draft):
         draft.show(head)
     elif not is_it and name in word_set("things", "backdrops") and not is_room(place["name"]):
-        place["backdrops"] = list(dict.fromkeys([*place.get("backdrops", ()), name]))
+        far = "city" if name == "skyline" else name
+        place["backdrops"] = list(dict.fromkeys([*place.get("backdrops", ()), far]))
         draft.show(head)
     elif (name == "sky" and is_said) or place.setdefault("name", name) == name or (
         head.is_liquid and place["name"] in word_set("things", "waters")

@@ -33,6 +33,4 @@ def _is_inherent(draft: SceneDraft, effect: dict[str, object]) -> bool:
     if not isinstance(source, int):
         return False
     thing = draft.things[source]
-    return trait_value("own effect", thing["noun"]) == effect["kind"] and thing.get(
-        "is_lit", True
-    )
+    return trait_value("own effect", thing["noun"]) == effect["kind"] and thing.get("is_lit", True)

@@ -84,6 +84,8 @@ class VerbSense:
     """Motion of its object."""
     brings: str = ""
     """Noun of the object that it needs not say: "kicks a penalty"."""
+    aims: str = ""
+    """Noun of what it sends that to: "scores"."""
     is_near: bool = False
     """Whether it is reported as shown by another one."""
 
@@ -174,7 +176,7 @@ def _list_plain_verbs() -> Iterator[tuple[str, VerbSense]]:
             yield base, VerbSense(who, kind, float(pace or 1))
     for phrase, said in word_table("verbs").items():
         senses = said if isinstance(said, list) else [said]
-        yield from ((base, VerbSense(**one)) for base, one in product(_expand(phrase), senses))
+        yield from ((base, VerbSense(**one)) for base, one in product(expand(phrase), senses))
 
 
 _PERFORMERS = (("person", ACTIVITIES), ("hand", HAND_GESTURES))
@@ -183,14 +185,23 @@ _PERFORMERS = (("person", ACTIVITIES), ("hand", HAND_GESTURES))
 def _list_activities() -> Iterator[tuple[str, VerbSense]]:
     for who, table in _PERFORMERS:
         for name, activity in table.items():
-            yield from ((phrase, VerbSense(who, name)) for phrase in activity.words)
-            yield from ((phrase, VerbSense(who, name, is_near=True)) for phrase in activity.near)
+            for is_near, phrases in ((False, activity.words), (True, activity.near)):
+                yield from ((one, VerbSense(who, name, is_near=is_near))
+                            for phrase in phrases for one in _list_numbers(phrase))  # fmt: skip
             yield from _list_acts(who, name, activity)
     for name, activity in ANIMAL_ACTIVITIES.items():
         yield from ((verb, VerbSense("animal", name)) for verb in activity.words)
         yield from _list_acts("animal", name, activity)
     for name, effect in EFFECTS.items():
         yield from ((verb, VerbSense("source", name)) for verb in effect.verbs)
+
+
+def _list_numbers(phrase: str) -> Iterator[str]:
+    """A phrase of an act, and the same of several things: "iron a shirt", "iron shirts"."""
+    yield phrase
+    verb, article, what = phrase.partition(" a ")
+    if article and what.split()[-1] not in _PARTICLES:
+        yield from (f"{verb} {one}" for one in list_plurals(what) if one != what)
 
 
 def _list_acts(who: str, name: str, activity: Activity) -> Iterator[tuple[str, VerbSense]]:
@@ -272,7 +283,7 @@ def _walk(table: Mapping[str, Any], path: tuple[str, ...] = ()) -> Iterator[tupl
     for key, value in table.items():
         if isinstance(value, list):
             around = _AROUND if "shot" in path or "camera" in path else "{}"
-            yield (*path, key), [each for one in value for each in _expand(around.format(one))]
+            yield (*path, key), [each for one in value for each in expand(around.format(one))]
         else:
             yield from _walk(value, (*path, key))
 
@@ -281,7 +292,7 @@ _AROUND = "(from |by |with |in |){}( only|)"
 """Words about a shot that say no more: "from an aerial view", "forward motion only"."""
 
 
-def _expand(phrase: str) -> Iterator[str]:
+def expand(phrase: str) -> Iterator[str]:
     """Phrases with one of the words between brackets each: "(top|overhead) view( of|)"."""
     parts = re.split(r"[()]", phrase)
     choices = [one.split("|") if number % 2 else [one] for number, one in enumerate(parts)]

@@ -29,6 +29,7 @@ from texvent_scenes.staging.placement.along_surface import (
     leap_up,
     stop_at_edge,
 )
+from texvent_scenes.staging.placement.approaches import lead_over
 from texvent_scenes.staging.placement.containers import (
     depth_in,
     go_inside,
@@ -289,15 +290,23 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
         carry_along(group, target, support)
     elif group.plan.is_path and not target.plan.motion.is_moving:
         stop_at_edge(group, target, support)
-    if is_person and kind in ("lie", "stand"):
+    _turn_along(group, target, support)
+    group.fit()
+    return target.to_world(*support.middle, support.height + group.origin_m)
+
+
+def _turn_along(group: ObjectGroup, target: ObjectGroup, support: Support) -> None:
+    """Turn who lies, stands or goes on something along it."""
+    kind, is_way = group.plan.motion.kind, target.noun.name in nouns_with("way")
+    if group.noun.name in PERSON_NOUNS and kind in ("lie", "stand"):
         body = target.models[0]
         is_across = kind == "lie" and body.width > body.length
         yaw = target.plan.yaw + 0.5 * math.pi * is_across
         group.plan = replace(group.plan, yaw=yaw, gesture=kind)
-    elif zone_of(group.noun) == "road" and target.noun.name in nouns_with("way"):
+    elif group.plan.is_path and target.noun.name in nouns_with("has approaches"):
+        lead_over(group, target, support)
+    elif zone_of(group.noun) == "road" and is_way:
         group.plan = replace(group.plan, yaw=target.plan.yaw)  # along a bridge, parked too
-    group.fit()
-    return target.to_world(*support.middle, support.height + group.origin_m)
 
 
 def _rest_on_face(

@@ -48,6 +48,7 @@ _WALL_SHARES = (-0.1, 0.1, -0.3, 0.3)
 _LEAST_STEPS, _FINER = 4, 25
 """Instants of an object's way that must be free, and how many times as many at most."""
 _BEFORE_M, _MOST_ITEMS = 4.0, 90
+_ON_BRIDGE_M = 0.5
 """Start of scenery before a route's beginning, and greatest number of pieces."""
 
 
@@ -216,6 +217,8 @@ class _Scatterer:
         x, y = self._bodies[:, :2].mean(axis=0) if len(self._bodies) else (0.0, 0.0)
         ahead, angle = rule.reach[0], self._view.road.angle
         if rule.noun in nouns_with("rails") and self._train is not None:
+            if self._train.lowest_m(0.0) > _ON_BRIDGE_M:
+                return
             x, y, angle = *self._train.middle(0.0)[:2], self._train.track.at(0.0).yaw
         elif rule.noun in nouns_with("strip") and self._lander is not None:
             ends = [self._lander.middle(time_s)[:2] for time_s in (0.0, self._view.clip_s)]
