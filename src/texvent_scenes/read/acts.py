@@ -44,6 +44,8 @@ def perform(
     if act is None or (has_object and not objects and act.who in ("plain", "body")):
         return None  # what it is done to is not known
     draft.show(verb)
+    if act.kind == "rise" and all(draft.noun(one).habitat == "fixed" for one in subjects):
+        act = replace(act, kind="stand")  # "mountains rise in the distance"
     if act.aims:
         return _send(draft, act, verb, subjects, objects)
     if act.brings not in ("", EGO) and not objects:
