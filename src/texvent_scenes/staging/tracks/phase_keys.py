@@ -35,7 +35,7 @@ from texvent_scenes.staging.tracks.phases import (
     usual_speed,
 )
 from texvent_scenes.staging.tracks.track import Term, Track, centred
-from texvent_scenes.staging.tracks.turning import CLOCKWISE, spin_sign
+from texvent_scenes.staging.tracks.turning import CLOCKWISE, axle_of, spin_sign
 
 NO_FLOOR_M = -1e4
 """Floor of a path that is not yet placed above the ground, m."""
@@ -128,7 +128,8 @@ def falls_sideways(noun: Noun) -> bool:
 
 def spin_lift(model: Model) -> float:
     """Height at which the corners of a flat shape that turns in the picture are above ground, m."""
-    return 0.5 * (math.hypot(model.width, model.height) - model.height)
+    axle = axle_of(model, "roll")
+    return max(axle.reach_m - axle.height_m, 0.0)
 
 
 def fallen_m(model: Model, duration_s: float) -> float:
@@ -226,7 +227,7 @@ class _KeyBuilder:
         rate *= spin_sign(phase.motion.direction, axis, self._heading)
         times = {"begin_s": begin_s, "end_s": phase.end_s}
         self.terms.append(Term(axis, drift=rate, offset=-rate * begin_s, **times))
-        self.pivot_m = 0.5 * model.height
+        self.pivot_m = axle_of(model, axis).height_m
         if axis == "roll":  # its corners stay above the ground
             self.initial_height = max(self.initial_height, spin_lift(model))
         self._rest(STANDING, phase.duration_s)
