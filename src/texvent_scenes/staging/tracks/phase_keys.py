@@ -18,7 +18,7 @@ from texvent_scenes.models.protocol import Model, Noun, Pose
 from texvent_scenes.models.shapes import bounds
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.spec.scene import Motion
-from texvent_scenes.staging.tracks.corners import corner
+from texvent_scenes.staging.tracks.corners import centre_change, corner
 from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, HOP_PAUSE_S, Key, flight_s
 from texvent_scenes.staging.tracks.phases import (
     PATH_KINDS,
@@ -185,6 +185,7 @@ class _KeyBuilder:
         self._is_mobile = noun.speed_m_s > 0.0 and noun.habitat != "fixed"
         self._height = start_m or 0.0
         self._heading = yaw
+        self._is_beginning = True
         self.keys = [Key(0.0)]
         self.terms: list[Term] = []
         self.pivot_m = self.edge_m = 0.0
@@ -194,6 +195,7 @@ class _KeyBuilder:
     def add(self, phase: Phase) -> None:
         """Append the keys of one phase."""
         motion, span = phase.motion, phase.duration_s
+        self._is_beginning = True
         if motion.direction in SWINGS and motion.kind in STEERED:
             key = to_and_fro(motion, abs(self._speed(motion)), span, self._model)
             self._start(key.speed_m_s)
@@ -246,6 +248,9 @@ class _KeyBuilder:
         span, turn, ramp = key.duration_s, key.turn_rad_s, key.ramp_s
         self._heading += turn * span + 0.5 * (before - turn) * min(ramp, span)
         self._height += key.climb_m_s * span
+        if self._is_beginning and not self._is_first:
+            self.keys[-2:], key = centre_change(self.keys[-2:], key)
+        self._is_beginning = False
         self.keys.append(key)
 
     def usual(self, motion: Motion) -> float:
@@ -325,7 +330,7 @@ class _KeyBuilder:
         keys = corner(before, last, segments[0][1], span, least_m)
         if not keys:
             return False
-        self.keys[-1] = keys[0]
+        self.keys[-1], self._is_beginning = keys[0], False
         for key in keys[1:]:
             self._append(key)
         return True
