@@ -12,8 +12,8 @@ from texvent_scenes.spec.scene import Motion, Place, Scene, SceneObject
 
 TWO_COLOURED = ("beach ball", "football")
 """Half of a beach ball is white, a third of a football black."""
-BALLS = [name for name, noun in NOUNS.items() if name not in TWO_COLOURED and (
-    name in ("sphere", "marble", "balloon") or (noun.motion == "roll" and "ball" in name))]  # fmt: skip
+ROUND = [name for name, noun in NOUNS.items() if noun.motion == "roll" and "ball" in name]
+BALLS = [one for one in (*ROUND, "sphere", "marble", "balloon") if one not in TWO_COLOURED]
 CHANNELS = {"red": 0, "green": 1, "blue": 2}
 
 

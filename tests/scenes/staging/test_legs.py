@@ -83,6 +83,20 @@ def test_what_starts_and_stops_at_stated_times_is_where_its_legs_end(row):
     assert max(speeds) <= speed + 1e-9
 
 
+STOPPING = [("dog", "run", "sit"), ("man", "walk", "wave"), ("cat", "walk", "lie"),
+            ("woman", "run", "sit down")]  # fmt: skip
+
+
+@for_every(itertools.product(STOPPING, (0.8, 1.5)))
+def test_who_does_something_at_rest_after_a_leg_begins_it_at_its_time_where_that_ends(row):
+    (noun, going, done), stop_s = row
+    motions = (Motion(going, "right", speed_m_s=2.0), Motion(done, start_s=stop_s))
+    track = place(SceneObject(noun, position_m=(0.0, 0.0), motions=motions), stop_s + 2.0)
+    assert track.at(stop_s + 2.0).position[0] == pytest.approx(2.0 * stop_s, abs=2e-3)
+    assert track.at(stop_s - 1e-3).activity == going
+    assert track.at(stop_s + 1e-3).activity != going
+
+
 @for_every(itertools.product(MOVED, (0.5, 1.0, 2.0)))
 def test_a_leg_at_another_speed_is_as_long_as_its_time_says(row):
     (noun, kind, speed), faster = row

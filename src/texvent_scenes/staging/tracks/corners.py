@@ -77,7 +77,7 @@ def _reverse(before: Key, last: Key, turn_rad: float, span_s: float) -> list[Key
     ]
 
 
-def centre_change(last: Sequence[Key], key: Key) -> tuple[list[Key], Key]:
+def centre_change(last: Sequence[Key], key: Key, *, is_act: bool) -> tuple[list[Key], Key]:
     """The last keys and the next one, half of whose change of speed comes before its time.
 
     So a body is where legs without easing end: what starts or stops at a time and a place that
@@ -86,6 +86,8 @@ def centre_change(last: Sequence[Key], key: Key) -> tuple[list[Key], Key]:
     Args:
         last: one or two keys, of which the last is shortened.
         key: the next one, on a straight line too.
+        is_act: whether something is done in it that begins at its time, when half of the speed is
+            gone.
     """
     *before, one = last
     is_plain = all(
@@ -100,7 +102,12 @@ def centre_change(last: Sequence[Key], key: Key) -> tuple[list[Key], Key]:
     if ramp_s < min(_LEAST_S, key.ramp_s):
         return [*last], key
     shorter = replace(one, duration_s=one.duration_s - 0.5 * ramp_s)
-    return [*before, shorter], replace(key, duration_s=key.duration_s + 0.5 * ramp_s, ramp_s=ramp_s)
+    if key.speed_m_s or key.climb_m_s or not is_act:
+        longer = replace(key, duration_s=key.duration_s + 0.5 * ramp_s, ramp_s=ramp_s)
+        return [*before, shorter], longer
+    half = replace(one, duration_s=0.5 * ramp_s, ramp_s=0.5 * ramp_s,
+                   speed_m_s=0.5 * one.speed_m_s, climb_m_s=0.5 * one.climb_m_s)  # fmt: skip
+    return [*before, shorter, half], replace(key, ramp_s=0.5 * ramp_s)
 
 
 def _solve(whole_s: float, turn_rad: float, speeds: tuple[float, float]) -> list[Key]:

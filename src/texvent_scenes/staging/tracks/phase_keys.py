@@ -67,6 +67,8 @@ _LIFT_SHARE, _LANDING_SHARE = 0.3, 0.65
 """Shares of a phase after which wheels leave a runway, or meet it."""
 _OF_CAMERA = ("towards", "away")
 """Directions to which something turns that say where it heads then, and not to which side."""
+_AT_REST = frozenset({"sit", "lie"})
+"""What bodies with legs do at rest, beside acts of their own."""
 _REACHED = {"sit down": "sit", "stand up": "stand"}
 """Getting up and down after something else: the posture that the body goes over to."""
 
@@ -186,6 +188,7 @@ class _KeyBuilder:
         self._height = start_m or 0.0
         self._heading = yaw
         self._is_beginning = True
+        self._acts = ACTIVITIES.keys() if noun.name in PERSON_NOUNS else noun.acts | _AT_REST
         self.keys = [Key(0.0)]
         self.terms: list[Term] = []
         self.pivot_m = self.edge_m = 0.0
@@ -249,7 +252,8 @@ class _KeyBuilder:
         self._heading += turn * span + 0.5 * (before - turn) * min(ramp, span)
         self._height += key.climb_m_s * span
         if self._is_beginning and not self._is_first:
-            self.keys[-2:], key = centre_change(self.keys[-2:], key)
+            is_act = key.activity != self.keys[-1].activity and key.activity in self._acts
+            self.keys[-2:], key = centre_change(self.keys[-2:], key, is_act=is_act)
         self._is_beginning = False
         self.keys.append(key)
 
