@@ -9,15 +9,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
+from texvent_scenes.default_places import AFLOAT_MOTIONS, AT_HAND, choose_place
 from texvent_scenes.description import SPIN_RATE_HZ, STANDING, IndexedRelation, SceneDescription
-from texvent_scenes.models.activities import HAND_NOUNS, MOUTH_ACTIVITIES, PERSON_NOUNS
+from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.places import PLACES, is_room
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Ground
 from texvent_scenes.spec.data import ACTED, SPACED
-from texvent_scenes.spec.scene import CameraMove, Direction, Motion, Place, SceneObject
+from texvent_scenes.spec.scene import CameraMove, Direction, Motion, SceneObject
 
 NO_PLACE = "no place is said"
 """Begins the note about it."""
@@ -26,22 +27,17 @@ SWAY = CameraMove("handheld", pace=0.4)
 _RESTING = frozenset({"behind", "front", "beside", "between", "under", "left of", "right of",
                       "around"})  # fmt: skip
 """Relations that an object would undo by moving off."""
-_AT_HAND = frozenset({"hold", "wear", "act on"})
 _GOING = {"stand": "slide", "float": "fly"}
 _UPRIGHT = {"up": "rise", "down": "sink"}
 _VERTICAL = {**_UPRIGHT, "up and down": "fly"}
 """Direction of what goes by no means of its own → its motion."""
-_AFLOAT = ("sail", "paddle")
 _FLYING = {"fly", "rise", "sink", "hover"}
 _ALONG = frozenset({"walk", "run", "drive", "roll", "fly", "crawl", "slide"})
 _ROCKING = 0.5
 """Pace at which what floats rocks on waves, as a share of that of a sway."""
-_IN_WATER = ("swim", "surf", "plunge", *_AFLOAT)
 _DARK_EFFECTS = frozenset({"fireworks", "fireflies"})
-_PLACES_OF_TRAVEL = {"drive": "road", "cycle": "road", "sail": "sea", "swim": "underwater"}
-_NO_GROUND = ("sky", "space", "underwater")
-_FAST_FLYER_M_S = 9.0
-"""Speed above which what flies is shown in the sky, far from the ground."""
+_STRUCK_FAR = 5.0
+"""Size of lightning that strikes far off."""
 
 
 def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
@@ -50,14 +46,14 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     What lives in the air or in water moves unless it is said to rest. When nothing moves, the
     first object that can move does what it usually does; when none can, the camera sways.
     """
-    description = _rest(_set_down(_set_far(_ground(description))), nouns)
+    description = _rest(_set_down(_strike_far(_set_far(_ground(description)))), nouns)
     objects = tuple(
         replace(one, motions=decide_motions(one.motions, nouns[one.noun]))
         for one in description.objects
     )
     description = _lead_companions(replace(description, objects=objects), nouns)
     description = _darken(_move_others(description, nouns))
-    place = _choose_place(description, nouns)
+    place = choose_place(description, nouns)
     if description.place.name is None:
         description = _note(description, f"{NO_PLACE}: {place} is chosen")
     description = replace(description, place=replace(description.place, name=place))
@@ -174,11 +170,13 @@ def _move(description: SceneDescription, motions: Mapping[int, Motion]) -> Scene
 
 
 def _lead_companions(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
-    """Companions on foot, with whom another walks or runs: they do so too."""
+    """Companions on foot, of whom one walks or runs: the other does so too."""
     objects, led = description.objects, dict[int, Motion]()
-    pairs = ((one.subject, to) for one in description.relations if one.kind == "with"
-             for to in one.targets)  # fmt: skip
-    for subject, to in pairs:
+    said = [(one.subject, to) for one in description.relations if one.kind == "with"
+            for to in one.targets]  # fmt: skip
+    back = [(to, subject) for subject, to in said
+            if {objects[to].noun, objects[subject].noun} <= PERSON_NOUNS]  # fmt: skip
+    for subject, to in (*said, *back):
         motion = objects[subject].motion
         on_foot = all(nouns[objects[n].noun].motion == "walk" for n in (subject, to))
         if motion is not None and motion.kind in ("walk", "run") and on_foot:
@@ -196,6 +194,20 @@ def _set_far(description: SceneDescription) -> SceneDescription:
     far = (n for n, one in enumerate(objects)
            if one.noun in towering and one.placement is one.position_m is None)  # fmt: skip
     return _change(description, {n: replace(objects[n], placement="far") for n in {*far} - related})
+
+
+def _strike_far(description: SceneDescription) -> SceneDescription:
+    """Lightning strikes far off, unless the scene says what it strikes or how large it is."""
+    related = {n for one in description.relations for n in (one.subject, *one.targets)
+               if one.kind != "above"}  # fmt: skip
+    new = {
+        n: replace(one, size=_STRUCK_FAR, placement=one.placement or (
+            "far" if len(description.objects) > one.count else None))
+        for n, one in enumerate(description.objects)
+        if one.noun in nouns_with("out of clouds") and n not in related and one.size == 1.0
+        and one.position_m is None
+    }  # fmt: skip
+    return _change(description, new)
 
 
 def decide_motions(motions: Sequence[Motion], noun: Noun) -> tuple[Motion, ...]:
@@ -231,7 +243,7 @@ def _decide_motion(motion: Motion | None, noun: Noun) -> tuple[Motion, ...]:
         is_lifted = motion.kind == "slide" and noun.name in nouns_with("flat pattern")
     if motion.kind in ("hover", "float") and motion.direction in _UPRIGHT:
         motion = replace(motion, kind=_UPRIGHT[motion.direction], direction=None)
-    if motion.kind in ("hover", "float") and noun.motion in _AFLOAT:
+    if motion.kind in ("hover", "float") and noun.motion in AFLOAT_MOTIONS:
         motion = replace(motion, kind="sway", pace=_ROCKING * motion.pace)
     if is_lifted:  # what is flat goes in its own plane
         kind = _VERTICAL.get(motion.direction or "")
@@ -255,7 +267,9 @@ def _is_work(motion: Motion | None, noun: Noun) -> bool:
     if motion is None or motion.kind in ("stand", "swing", "spin", "turn", "work", "sway"):
         return True
     is_flat = noun.name in nouns_with("flat pattern")
-    return motion.kind == "move" and (motion.direction is None or is_flat)
+    turns = trait_value("turns per second", noun.name) is not None
+    swings = motion.direction == "to and fro" and not (turns or noun.speed_m_s)
+    return motion.kind == "move" and (motion.direction is None or is_flat or swings)
 
 
 def _work(motion: Motion | None, noun: Noun) -> Motion:
@@ -317,7 +331,9 @@ def _rest_of(
     are_walkers = {one.motion for one in members.values()} == {"walk"}
     if kind == "beside" and motion and motion.kind in ("walk", "run", "move") and are_walkers:
         return dict.fromkeys(relation.targets, Motion(motion.kind, motion.direction))
-    rests = (n for n, one in members.items() if one.habitat == "ground" or one.motion in _AFLOAT)
+    rests = (
+        n for n, one in members.items() if one.habitat == "ground" or one.motion in AFLOAT_MOTIONS
+    )
     return dict.fromkeys(rests, STANDING)
 
 
@@ -365,7 +381,7 @@ def _flickers(thing: SceneObject, noun: Noun) -> bool:
 
 def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
     """Let the first object that can move do so, or else the camera."""
-    held = {n for one in description.relations if one.kind in _AT_HAND
+    held = {n for one in description.relations if one.kind in AT_HAND
             for n in (one.subject, *one.targets)}  # fmt: skip
     able = () if _stays_together(description, nouns) else tuple(enumerate(description.objects))
     for n, one in able:
@@ -432,67 +448,3 @@ def _darken(description: SceneDescription) -> SceneDescription:
         return description
     description = replace(description, light=replace(description.light, kind="night"))
     return _note(description, "it is dark, so that the light that changes is seen")
-
-
-def _choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> str:
-    """The place that is said, or the usual one of the objects."""
-    led = {n for one in description.relations if one.kind in _AT_HAND for n in one.targets}
-    led |= {
-        one.subject
-        for one in description.relations
-        if one.kind in ("in", "on") and _swims(nouns[description.objects[one.subject].noun])
-    }  # "on a puddle"
-    members = [nouns[one.noun] for n, one in enumerate(description.objects) if n not in led]
-    kinds = {one.motion.kind for one in description.objects if one.motion is not None}
-    said, usual = description.place, _usual_place(members, description, kinds)
-    dives = all(noun.habitat == "water" and noun.motion not in _AFLOAT for noun in members)
-    dives = dives and bool(members) and "jump" not in kinds
-    if dives and said.name in (None, "sea", "lake", "river"):
-        return "underwater"
-    if said.name == "sea" and any(noun.habitat == "ground" for noun in members):
-        return "sea" if kinds.intersection((*_IN_WATER, "hover", "float")) else "beach"
-    if said.name == "sky" and any(noun.habitat == "fixed" for noun in members):
-        return "grass"  # "a kite in the sky over a hill"
-    travel = (one.means or "" for one in description.camera.moves if one.kind == "travel")
-    of_travel = [_PLACES_OF_TRAVEL[means] for means in travel if means in _PLACES_OF_TRAVEL]
-    if said.name is None and not of_travel and (said.has_snow or said.weather == "snow"):
-        return "snow"
-    if said.name is None and said.wave_height > Place.wave_height:
-        return "sea"
-    return said.name or (of_travel[0] if of_travel else usual)
-
-
-def _swims(noun: Noun) -> bool:
-    """Whether a noun is in water or on it."""
-    return noun.habitat == "water" or noun.motion in _AFLOAT
-
-
-def _usual_place(members: Sequence[Noun], description: SceneDescription, kinds: set[str]) -> str:
-    """Usual place of objects with these motions."""
-    habitats = {noun.habitat for noun in members}
-    of_nouns = [trait_value("usual place", noun.name) or noun.place for noun in members]
-    if (
-        habitats == {"water"}
-        or "plunge" in kinds
-        or (habitats == {"ground"} and kinds & {"swim", "surf"})
-    ):
-        return "sea"
-    if any(noun.motion in _AFLOAT for noun in members):
-        return "sea" if "sea" in of_nouns else "lake"
-    is_outdoors = description.place.weather in ("rain", "snow") or any(
-        noun.name in nouns_with("outdoors") for noun in members
-    )
-    of_acts = [trait_value("place of activity", kind) for kind in sorted(kinds)]
-    for place in filter(None, (*of_nouns, *of_acts)):
-        is_wrong = (
-            (is_outdoors and is_room(place))
-            or ("ground" in habitats and place in _NO_GROUND)
-            or ("fixed" in habitats and place == "sky")
-        )
-        if not is_wrong:
-            return str(place)
-    if "water" in habitats and kinds & {"swim", "jump"}:  # "a dolphin jumps through a hoop"
-        return "sea"
-    is_fast = all(noun.speed_m_s >= _FAST_FLYER_M_S for noun in members)
-    rests = kinds <= {"stand", "sit", "lie", "rise", "sink"} | MOUTH_ACTIVITIES
-    return "sky" if habitats == {"air"} and is_fast and not rests else "grass"

@@ -25,6 +25,9 @@ _NEAR_END, _RESTING = 3.0, 0.15
 """Gap before what something stops for, in its lengths; speed at the end, as a share of the mean."""
 _HANDS, _REACH = ("left hand", "right hand"), 0.12
 """Places that act on things; from there to what is acted upon, in sizes of the body."""
+_BEGUN, _SLOWER = 0.1, 0.4
+"""Share of the clip at the beginning in which what begins later hardly moves; most speed then, as a
+share of the greatest."""
 _SEEN = 0.9
 """Share of the clip after which what breaks leaves no time to see its pieces."""
 _BESIDE = 0.2
@@ -137,6 +140,20 @@ def stops(staged: StagedClip, claim: Claim) -> bool:
     for one in staged.own_boxes(claim):
         steps = np.linalg.norm(np.diff(one.middle, axis=0), axis=1)
         if steps[-1] > _RESTING * steps.mean() or steps.max() <= _STILL * one.size.max():
+            return False
+    return True
+
+
+def begins(staged: StagedClip, claim: Claim) -> bool:
+    """Whether its parts hardly move or turn at first, and do later: "starts to spin"."""
+    edge = max(int(_BEGUN * len(staged.fine_times)), 1)
+    for one in staged.own(claim):
+        at = [one.place(time_s) for time_s in staged.fine_times]
+        parts = np.array([[each.to_world[:, :3] @ part.to_body for part in each.parts]
+                          for each in at])  # fmt: skip
+        parts[..., 3] += np.array([each.to_world[:, 3] for each in at])[:, None]
+        steps = np.abs(np.diff(parts, axis=0)).max(axis=(1, 2, 3))
+        if steps[:edge].max() >= _SLOWER * steps.max():
             return False
     return True
 
@@ -266,8 +283,11 @@ def is_laid(staged: StagedClip, claim: Claim) -> bool:
 
 
 def moves(staged: StagedClip, claim: Claim) -> bool:
-    """Whether it leaves its place, or is on foot where it is: on a treadmill."""
+    """Whether it leaves its place, or is on foot where it is; parts of machines move."""
     for one in staged.own(claim):
+        is_fixed = one.noun.is_working and one.noun.speed_m_s == 0.0
+        if is_fixed and staged.departure(one).max() > _GROUNDED * one.size_m:
+            continue
         places = np.array([one.middle(at) for at in staged.fine_times])
         does = {one.track.at(at).activity.split()[0] for at in staged.times}
         if np.ptp(places, axis=0).max() < _GROUNDED * one.size_m and not does & TRAVELLING:

@@ -5,6 +5,7 @@ Each picture is compared with one of the scene without what a word says, or of a
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -25,15 +26,17 @@ from texvent_scenes.spec.scene import Place
 from texvent_scenes.staging.actors import Actor, PlacedModel, assemble
 from texvent_scenes.staging.compose import ComposedScene
 from texvent_scenes.staging.particles.choose import FALLING, Staged
+from texvent_scenes.staging.particles.emitter import Emitter
 from texvent_scenes.staging.surroundings.environment import RoadLine, build_environment
 from texvent_scenes.staging.tracks.phases import PATH_KINDS
 
 _SIZE, _LEAST_LEVELS, _WHITE, _LEAST_SHARE = SensorSize(120, 90), 6.0, 30.0, 0.002
 """Size of small pictures; difference of a pixel, of 255, that is seen, and that makes snow white;
 share of those that are."""
-_SEEN = {"has_snow": (_WHITE, _LEAST_SHARE), "clouds": (_LEAST_LEVELS, 0.02)}
+_SEEN = {"has_snow": (_WHITE, _LEAST_SHARE), "clouds": (_LEAST_LEVELS, 0.02),
+         "is_wet": (20.0, 0.03)}  # fmt: skip
 """Kind → least difference and share that show it, if others than usual: of clouds no panes that
-mirror them."""
+mirror them, of a wet ground more than a faint sheen."""
 _SOFT = ((25.0, 0.006), (50.0, 0.002))
 """The same of what is soft, as dust, of which a faint trace shows nothing: one is enough."""
 _EMITTERS = {kind: one.emitters for kind, one in EFFECTS.items()}
@@ -59,6 +62,10 @@ _CARRIED = ("stand", "orbit")
 _RESTS = ("stand", "stand open", "stand closed", "hang", "work", "sit", "lie", "show red",
           "show amber", "show green")  # fmt: skip
 """Motions that nothing needs to show."""
+_VEILED, _VEILED_LEVELS = 0.001, 14.0
+"""Least share of a small picture, and difference of its pixels, that show a body in fog or in the dark."""
+_POINT = 1e-6
+"""Radius of particles that are too small to be seen, in sizes of an effect."""
 _LATER_S = (0.13, 0.0171)
 """Times after which rotation shows, s: of both, no usual rate makes whole turns."""
 _FINE = 13
@@ -123,9 +130,13 @@ def find_unshown(
             line = name.split("_")[-1] if value is True else f"{name} {value}"
             line = f"{line.replace('_', ' ')}: no pixel shows it"
             yield Violation(name, value if is_kind else "", line)
+            if name == "sky" and not any(one.colour == value for one in description.objects):
+                yield Violation("colour", value, "")
     for one in description.objects:
         if one.is_lit and one.noun not in LAMPS:
             yield Violation("is_lit", "", f"lights of the {one.noun}")
+    if said.weather == "fog" or description.light.kind in ("night", "moonlight"):
+        yield from _find_veiled(scene, description, drawn)
     yield from _find_rest(scene, description, drawn)
     yield from _find_unturned(scene, description, times)
     is_said = not any(one.startswith(NO_PLACE) for one in description.notes)
@@ -138,7 +149,24 @@ def find_unshown(
         bare = "bare walls and the floor are" if place.is_room else "the ground is"
         line = f"{said.name}, of which only {bare} in view"
         yield Violation("place", said.name or "", line)
-    yield from find_unseen_place(scene, said, is_bare=is_bare, times=times)
+    yield from find_unseen_place(
+        scene, said, is_bare=is_bare, times=times,
+        names_sky=bool(re.search(r"\bsk(y|ies)\b", description.prompt.casefold())),
+    )  # fmt: skip
+
+
+def _find_veiled(
+    scene: ComposedScene, description: SceneDescription, drawn: SmallPictures
+) -> Iterator[Violation]:
+    """Bodies that leave no trace in fog or in the dark."""
+    cause = "fog" if description.place.weather == "fog" else "the dark"
+    for index, one in enumerate(description.objects):
+        rest = tuple(each for each in scene.actors if each.object_index != index)
+        hidden = replace(scene, actors=rest)
+        if len(rest) < len(scene.actors) and not drawn.differ(
+            hidden, least=_VEILED, levels=_VEILED_LEVELS
+        ):
+            yield Violation("noun", one.noun, f"the {one.noun}: {cause} hides it")
 
 
 def _find_unturned(
@@ -236,14 +264,24 @@ def _list_without(
     for name in _SURROUNDINGS:
         value, usual = getattr(said, name), getattr(Place, name)
         is_so = name == "has_snow" and scene.place.ground is Ground.SNOW  # by itself
+        is_so |= name == "clouds" and value == 0.0  # where the sky is in view it is so
         is_so |= name == "is_wet" and (said.weather == "rain" or not value)
         if value != usual and value not in FALLING and not is_so:
             yield name, value, without(place=replace(said, **{name: usual}))
     if description.light.kind not in (None, "day"):
         yield "light", description.light.kind, without(light=replace(description.light, kind=None))
     for kind in dict.fromkeys((said.weather, *(one.kind for one in description.effects))):
-        pairs = zip(staged.effects, staged.kinds, strict=True)
+        pairs = [*zip(staged.effects, staged.kinds, strict=True)]
         rest = tuple(effect for effect, own in pairs if own != kind)
         if len(rest) < len(staged.effects):
             name = "weather" if kind == said.weather else "effect"
             yield name, kind, replace(scene, particles=replace(staged, effects=rest))
+        if any(one.light for one in _EMITTERS.get(str(kind), ())):  # by its flames, not its light
+            dim = tuple(_dimmed(one) if own == kind else one for one, own in pairs)
+            yield "effect", kind, replace(scene, particles=replace(staged, effects=dim))
+
+
+def _dimmed(emitter: Emitter) -> Emitter:
+    """An emitter of which nothing is seen that shines, though it lights what is around."""
+    dim = replace(emitter.style, radius=(_POINT, _POINT))
+    return replace(emitter, style=dim) if emitter.style.emission[0] else emitter

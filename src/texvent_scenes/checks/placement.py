@@ -49,6 +49,9 @@ _SLIM, _CENTRAL = 0.2, 0.25
 something must be below, in extents of its box."""
 _LEAST_INSTANTS = 2
 """Instants at which a fault is one."""
+_LONG, _END = 1.5, 0.35
+"""Length of a vehicle, in widths, from which on its ends need a support, not its middle; and from
+its middle to these, in lengths."""
 _CROSSING = 0.7
 """Least share of the way of one who crosses a road that leads across it."""
 _SHALLOW_M = 0.4
@@ -82,8 +85,7 @@ def find_misplaced(
         is_free |= any(one.object_index in (each.subject, *each.targets) if each.kind in WAYS
                        else each.subject == one.object_index and each.kind == "between"
                        for each in description.relations)  # fmt: skip
-        if is_stranded(one, place) and bodies.is_alone(number) and not bodies.is_bound(number):
-            lost.append(Violation("zone", "", "on land"))
+        lost += [*_list_wrong_element(number, one, place, bodies)]
         if not (lost or is_free) and bodies.needs_support(number):
             lost += _list_strays(one, place, line, half_m, times) if bodies.is_alone(number) else []
         if one.noun.name in nouns_with("hangs from a ceiling") and not place.is_room:
@@ -98,6 +100,17 @@ def find_misplaced(
         last = (description.objects[one.object_index].motions or (STANDING,))[-1]
         if last.kind in _LAID and not _is_laid(one, last.kind, times):
             yield Violation("motion", last.kind, f"the {one.noun.name} on its side")
+
+
+def _list_wrong_element(
+    number: int, one: Actor, place: PlaceModel, bodies: _Bodies
+) -> Iterator[Violation]:
+    """Faults of what floats on land, and of what stands on water."""
+    if is_stranded(one, place) and bodies.is_alone(number) and not bodies.is_bound(number):
+        yield Violation("zone", "", "on land")
+    is_dry = place.ground is Ground.SEA and one.noun.habitat == "ground"
+    if is_dry and bodies.needs_support(number) and bodies.is_alone(number):
+        yield Violation("zone", "", "on land: it is on the water")
 
 
 def _is_laid(one: Actor, kind: str, times: Sequence[float]) -> bool:
@@ -139,8 +152,9 @@ def _list_strays(
             yield Violation("direction", "across", "crossing the road")
         elif not one.goes_across and (np.abs(feet) < half_m - _SHALLOW_M).all():
             yield Violation("zone", "", "on the road")
-    is_driving = zone_of(one.noun) == "road" and not one.track.is_resting and not line.crossings
-    if place.has_road and is_driving and (np.abs(feet) > half_m + _SHALLOW_M).mean() > 0.5:
+    is_driving = zone_of(one.noun) == "road" and not one.track.is_resting
+    off_m = line.distance(corners.mean(axis=1)) - half_m
+    if place.has_road and is_driving and (off_m > _SHALLOW_M).any():
         yield Violation("zone", "", "driving on the road: it is beside it")
     if place.has_shore and one.noun.habitat == "ground" and one.noun.speed_m_s > 0.0:
         far_m = half_m or math.inf
@@ -213,11 +227,21 @@ class _Bodies:
         return bool(((parts[:, 0] < high) & (parts[:, 1] > low)).all(axis=1).any())
 
     def _is_borne(self, number: int, at: int) -> bool:
-        """Whether another body is below the middle of its foot, or holds it."""
+        """Whether another body is below the middle of its foot, of a train below its ends."""
         low, high = self._low[number, at], self._high[number, at]
         middle, size = 0.5 * (low + high), high - low
-        foot = np.array([*(middle - _CENTRAL * size)[:2], low[2] - _ROOM_M - _ROOM * size[2]])
-        top = np.array([*(middle + _CENTRAL * size)[:2], low[2] + 0.6 * size[2]])
+        one = self._actors[number]
+        if zone_of(one.noun) in ("road", "rails") and size[:2].max() > _LONG * size[:2].min():
+            out = _END * size * (size == size[:2].max())
+            ends = ((middle + way * out, 0.1 * size) for way in (-1.0, 1.0))
+            return all(self._is_borne_at(number, at, *each) for each in ends)
+        return self._is_borne_at(number, at, middle, size)
+
+    def _is_borne_at(self, number: int, at: int, middle: Float64Array, size: Float64Array) -> bool:
+        """Whether another body is below a place of its foot, about which it is so large."""
+        low, tall = self._low[number, at], self._high[number, at, 2] - self._low[number, at, 2]
+        foot = np.array([*(middle - _CENTRAL * size)[:2], low[2] - _ROOM_M - _ROOM * tall])
+        top = np.array([*(middle + _CENTRAL * size)[:2], low[2] + 0.6 * tall])
         return any(
             self._meets(foot, top, other, at)
             for other, body in enumerate(self._actors)

@@ -12,9 +12,12 @@ from texvent_scenes.checks.body_boxes import is_any_inside
 from texvent_scenes.checks.relations import Violation
 from texvent_scenes.checks.water import wet_share
 from texvent_scenes.description import SceneDescription
+from texvent_scenes.models.places import PLACES, SEEN_FROM_AFAR
+from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.raycast.ground_truth import visible_instances
 from texvent_scenes.rendered_scene import Float64Array, Ground, Texture
 from texvent_scenes.spec.scene import Place
+from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.compose import ComposedScene
 
 _SIZE, _FAR_M = SensorSize(40, 30), 1e4
@@ -30,7 +33,14 @@ _MOST_FAR = 0.4
 """Share of the image's height up to which something may be in the distance."""
 
 
-_CLEAR_M, MOST_FOG = 150.0, 2.5
+_LEAST_BACKDROP = 0.004
+"""Least share of an image that a backdrop takes."""
+_FINE_SIZE, _POINTS, _AROUND = SensorSize(160, 120), 15, 0.25
+"""Image and points to a side at which it is looked around a body, and how far around it, in its
+extents in the image."""
+_LEAST_AROUND, _MOSTLY_SKY = 0.4, 0.8
+"""Least share of these points in the image; share of them that are sky, and of the instants."""
+_CLEAR_M, MOST_FOG = 150.0, 1.7
 """Least distance of sight in which the horizon is seen, m; distance, in those of sight, up to which
 fog leaves something of a body or a ground."""
 _WIDE = 2.0
@@ -38,7 +48,12 @@ _WIDE = 2.0
 
 
 def find_unseen_place(
-    scene: ComposedScene, said: Place, *, is_bare: bool, times: Sequence[float]
+    scene: ComposedScene,
+    said: Place,
+    *,
+    is_bare: bool,
+    times: Sequence[float],
+    names_sky: bool = False,
 ) -> Iterator[Violation]:
     """Scenery at the horizon while that is above the image, and a place of which nothing is seen.
 
@@ -47,12 +62,19 @@ def find_unseen_place(
         said: what is said of its place.
         is_bare: whether the place is said, and its scenery takes no room in the image.
         times: instants, s.
+        names_sky: whether the sky is named.
     """
     cameras = [scene.camera(time_s) for time_s in times]
     is_veiled = all(scene.environment(time_s).fog_distance < _CLEAR_M for time_s in times)
-    for one in said.backdrops if is_veiled or not any(map(has_horizon, cameras)) else ():
+    is_lost = is_veiled or not any(map(has_horizon, cameras))
+    for one in said.backdrops:
+        if not is_lost and _shows_backdrop(scene, one, cameras):
+            continue
         yield Violation("backdrops", "", f"the {one} in the distance")
         yield Violation("place", one, "")
+    far = [one.noun for one in scene.place.scenery if one.where == "far"]
+    if is_veiled and said.name in far:
+        yield Violation("place", str(said.name), f"the {said.name}: fog hides it")
     crossings = scene.animated_environment.base.road_crossings
     areas = [np.array([x, y, 0.0]) + _REACH_M * np.array(_SIDES) for x, y, *_ in crossings]
     if said.road and not any(_is_mostly_inside(each, one) for each in areas for one in cameras):
@@ -61,9 +83,11 @@ def find_unseen_place(
     if wide_m is not None and wide_m > _WIDE * scene.place.corridor_m:
         yield Violation("place", str(said.name), f"the {said.name}: it is as wide as a room")
     instants = [*zip(times, cameras, strict=True)]
-    if said.clouds and not any(_share_of_sky(scene, *one) >= _LEAST_SKY for one in instants):
-        yield Violation("clouds", "", "clouds: the sky is out of view")
-        yield Violation("place", "sky", "")
+    is_open = not (scene.place.is_room or scene.place.is_backdrop) and (said.clouds or names_sky)
+    if is_open and not any(_share_of_sky(scene, *one) >= _LEAST_SKY for one in instants):
+        if said.clouds:
+            yield Violation("clouds", "", "clouds: the sky is out of view")
+        yield Violation("place", "sky", "" if said.clouds else "the sky: it is out of view")
     if scene.place.has_shore and said.name and not any(_has_shore(scene, *one) for one in instants):
         kind = "water" if _has_water_name(scene) else "land"
         yield Violation("place", str(said.name), f"the {said.name}: its {kind} is out of view")
@@ -73,6 +97,37 @@ def find_unseen_place(
     has_ground &= is_bare and bool(said.name) and not scene.place.is_backdrop
     if has_ground and not any(_share_of_ground(scene, *one) >= _LEAST_SHARE for one in instants):
         yield Violation("place", str(said.name), f"the {said.name}: its ground is out of view")
+
+
+def _shows_backdrop(scene: ComposedScene, name: str, cameras: Sequence[PosedCamera]) -> bool:
+    """Whether enough of what tells a backdrop is in the image."""
+    rules = PLACES[SEEN_FROM_AFAR.get(name, name)].scenery
+    nouns = {one.noun for one in rules if one.where == "far"} or {one.noun for one in rules}
+    own = [one for one in scene.scenery if one.rule.noun in nouns]
+    return any(sum(one.share_of(camera) for one in own) >= _LEAST_BACKDROP for camera in cameras)
+
+
+def is_before_sky(scene: ComposedScene, one: Actor, times: Sequence[float]) -> bool:
+    """Whether most that is seen around a body is sky, at most of the instants that show it."""
+    found = []
+    for time_s in times:
+        seen = project(scene.camera(time_s), _FINE_SIZE, one.corners(time_s))
+        (left, top), (right, low) = seen[:, :2].min(axis=0), seen[:, :2].max(axis=0)
+        is_aloft = one.noun.habitat == "air"
+        low = low if is_aloft else 0.5 * (top + low)  # its foot is on the ground
+        room = _AROUND * max(right - left, low - top)
+        x, y = np.meshgrid(np.linspace(left - room, right + room, _POINTS),
+                           np.linspace(top - room, low + room * is_aloft, _POINTS))  # fmt: skip
+        points = np.stack([x, y], axis=-1).reshape(-1, 2)
+        is_inside = ((points >= 0.0) & (points <= [_FINE_SIZE.width, _FINE_SIZE.height])).all(
+            axis=1
+        )
+        if seen[:, 2].min() <= 0.0 or is_inside.mean() < _LEAST_AROUND:
+            continue
+        depth, instance = visible_instances(scene, time_s, _FINE_SIZE, points[is_inside])
+        others = depth[instance != one.instance]
+        found.append(bool(len(others)) and float(np.isinf(others).mean()) >= _MOSTLY_SKY)
+    return bool(found) and sum(found) >= _MOSTLY_SKY * len(found)
 
 
 def _is_mostly_inside(points: Float64Array, camera: PosedCamera) -> bool:
@@ -87,7 +142,8 @@ def find_near(
     """Things that are said to be in the distance, and are large in the image all the time."""
     for index, said in enumerate(description.objects):
         own = [one for one in scene.actors if one.object_index == index]
-        if own and said.placement == "far" and not any(
+        is_tall = said.noun in nouns_with("out of clouds")
+        if own and said.placement == "far" and not is_tall and not any(
             _share_of_image(one.corners(time_s), camera) <= _MOST_FAR
             for one in own for time_s, camera in zip(times, cameras, strict=True)
         ):  # fmt: skip

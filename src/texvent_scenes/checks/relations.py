@@ -210,6 +210,8 @@ def _rule_on(who: SceneObject, what: SceneObject) -> str:
     goes = bool(who.motions) and who.motions[0].kind in PATH_KINDS
     if goes and trait_value("slope", what.noun) is not None:
         return "on a slope"  # and past its foot
+    if what.noun in nouns_with("of ground"):
+        return "on a tip"
     if is_before_face(who, what):
         return "never"  # who writes there has a pad in hand
     if hangs_on(who.noun, what.noun):

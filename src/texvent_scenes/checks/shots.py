@@ -17,9 +17,9 @@ from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.camera.subject import choose_main, near_part
 from texvent_scenes.staging.compose import ComposedScene
 
-_CLOSE, _HALF = 0.4, 0.5
-"""Share of the image's width or height that the part in a close shot extends over; share of the
-instants at which a shot is as it is said."""
+_CLOSE, _HALF, _MOST = 0.4, 0.5, 0.7
+"""Share of the image's width or height that the part in a close shot extends over; shares of the
+instants at which a shot is as it is said, and what is followed is in sight."""
 _DOWN, _STEEP, _LEVEL = -0.25, -0.9, 0.05
 """Height of the direction of sight, a unit vector, of a view from the air, and from the top; most
 of one downwards from a low angle."""
@@ -67,12 +67,35 @@ def find_misframed(
     if shot.view == "first person" and not any(one.kind == "travel" for one in moves):
         yield Violation("view", "first person", "first-person view: the camera goes nowhere")
     kinds = sorted({one.kind for one in moves})
+    if "follow" in kinds and scene.actors:
+        followed = _find_followed(scene, description)
+        if not _keeps_inside(followed, cameras, times, size):
+            line = f"follow of the camera: the {followed.noun.name} leaves the image"
+            yield Violation("move", "follow", line)
     met = _find_met(scene, times) if set(kinds) - _TURNING else ""
     for kind in kinds:
         if met and kind not in _TURNING:
             yield Violation("move", kind, f"{kind} of the camera: it goes through the {met}")
         elif all(_is_still(cameras[0], one) for one in cameras):
             yield Violation("move", kind, f"{kind} of the camera: it stays where it is")
+
+
+def _find_followed(scene: ComposedScene, description: SceneDescription) -> Actor:
+    """The body that a camera follows: the one it looks at, else the main one."""
+    target = description.index(description.camera.target)
+    own = [one for one in scene.actors if one.object_index == target]
+    return own[0] if own else choose_main(description, scene.actors)
+
+
+def _keeps_inside(
+    body: Actor, cameras: Sequence[PosedCamera], times: Sequence[float], size: SensorSize
+) -> bool:
+    """Whether the middle of a body is inside the image, at most instants."""
+    points = np.array([project(camera, size, body.middle(time_s)[None])[0]
+                       for camera, time_s in zip(cameras, times, strict=True)])  # fmt: skip
+    x, y, depth = points.T
+    inside = (depth > 0.0) & (x >= 0.0) & (x < size.width) & (y >= 0.0) & (y < size.height)
+    return bool(np.mean(inside) >= _MOST)
 
 
 def _find_met(scene: ComposedScene, times: Sequence[float]) -> str:

@@ -13,6 +13,7 @@ from texvent.sensor import SensorSize
 from texvent_scenes.checks.body_boxes import BodyBoxes, body_of
 from texvent_scenes.checks.relations import find_violations
 from texvent_scenes.description import Claim, IndexedRelation, SceneDescription
+from texvent_scenes.models.tables import trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.compose import ComposedScene
@@ -50,8 +51,13 @@ class StagedClip:
                 for index in range(len(self.description.objects))]  # fmt: skip
 
     def list_actors(self, index: int) -> list[Actor]:
-        """Copies of an object."""
-        return [one for one in self.scene.actors if one.object_index == index]
+        """Copies of an object; a rider who is drawn with a vehicle is that."""
+        own = [one for one in self.scene.actors if one.object_index == index]
+        built_in = [one.targets[0] for one in self.description.relations
+                    if one.subject == index and one.kind in ("ride", "on") and trait_value(
+                        "ridden", self.description.objects[one.targets[0]].noun) == "built-in"]  # fmt: skip
+        ridden = {*built_in} if not own else set()
+        return own or [one for one in self.scene.actors if one.object_index in ridden]
 
     @cached_property
     def fine_times(self) -> list[float]:

@@ -14,6 +14,7 @@ import numpy as np
 
 from texvent.sensor import SensorSize
 from texvent_scenes.checks.acts import (
+    begins,
     bounces,
     breaks,
     changes_pace,
@@ -53,6 +54,7 @@ from texvent_scenes.checks.parts import (
     is_moving_inside,
     is_of_material,
 )
+from texvent_scenes.checks.places import is_before_sky
 from texvent_scenes.checks.staged_clip import StagedClip
 from texvent_scenes.checks.water import wet_share
 from texvent_scenes.description import SEEN, Claim, SceneDescription
@@ -76,12 +78,15 @@ _DONE = (
     "move",
     "tip",
     "turn",
+    "begin",
 )
 """Length of a clip in which motions get so far that they are judged, s; claims of read motions."""
 _OF_CAMERA = (SEEN, "circle", "camera", "macro")
 """Claims that may be made of the camera."""
 _COVERED = 0.6
 """Most distance in the image of what is covered, in half extents of both."""
+_LARGE = 0.25
+"""Least size of what is close to the camera, as a share of its distance."""
 _LIT_SHARE = 0.5
 """Share of the period of a lamp that blinks for which it is lit."""
 _MOSTLY = 0.75
@@ -238,6 +243,12 @@ def _shines(staged: StagedClip, claim: Claim) -> bool:
     return all(one.instance in lit for one in staged.own(claim))
 
 
+def _is_near(staged: StagedClip, claim: Claim) -> bool:
+    """Whether a body takes a good part of the image at some instant: "close to the camera"."""
+    return any((one.size.max(axis=1) >= _LARGE * np.maximum(one.seen[:, 2], 1e-3)).any()
+               for one in staged.own_boxes(claim))  # fmt: skip
+
+
 def _covers(staged: StagedClip, claim: Claim) -> bool:
     """Whether each body is before another one in the image at some time, and over much of it."""
     others = [one for n in claim.targets for one in staged.boxes[n]]
@@ -268,6 +279,26 @@ def _sits_at(staged: StagedClip, claim: Claim) -> bool:
     )  # fmt: skip
 
 
+def _is_taken_in(staged: StagedClip, claim: Claim) -> bool:
+    """Whether what is sent is in the box of what takes it in: at the end, or through a hoop."""
+    takers = [one for n in claim.targets for one in staged.list_actors(n)]
+    return all(
+        any(_is_in_box(one, other, at) for other in takers for at in staged.fine_times[1:])
+        for one in staged.own(claim)
+    )
+
+
+def _is_in_box(one: Actor, other: Actor, time_s: float) -> bool:
+    """Whether the middle of a body is in the box of another one."""
+    corners, middle = other.corners(time_s), one.middle(time_s)
+    return bool(((corners.min(axis=0) <= middle) & (middle <= corners.max(axis=0))).all())
+
+
+def _is_before_sky(staged: StagedClip, claim: Claim) -> bool:
+    """Whether around each body nothing but the sky is seen, at most instants that show it."""
+    return all(is_before_sky(staged.scene, one, staged.times) for one in staged.own(claim))
+
+
 CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "colour": _of_parts(has_colour), "material": _of_parts(is_of_material),
     "look": _of_parts(has_look),
@@ -284,7 +315,8 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "reverse": goes_back, "fall": falls, "water": _is_in_water, "descend": descends,
     "land": lands, "aside": goes_aside, "along": goes_along,
     "grip": handles_by_hand, "camera": is_camera_so, "stop": stops, "move": moves, "tip": tips,
-    "turn": turns, "pace": changes_pace,
+    "turn": turns, "begin": begins, "near": _is_near, "pace": changes_pace,
+    "sky behind": _is_before_sky, "taken in": _is_taken_in,
     "sit at": _sits_at, "macro": is_macro, "overtaken": is_overtaken, "cover": _covers,
 }  # fmt: skip
 """Kind of claim → its check."""

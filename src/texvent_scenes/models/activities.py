@@ -37,6 +37,8 @@ class Activity:
     """Whether it is best seen from the side."""
     is_done_seated: bool = False
     """Whether it is done just as well sitting: the hips do not move."""
+    is_at_bench: bool = False
+    """Whether arms and head do it at a bench: the legs may be out of the image."""
     moves_as: str = ""
     """Name of the activity whose motion it has; "" = its own."""
     contact_s: float | None = None
@@ -133,6 +135,7 @@ TIMED = frozenset(name for name, one in ANIMAL_ACTIVITIES.items() if one.is_time
 """Acts of parts that happen once: a door opens."""
 
 
+@cache
 def limbs_of(activity: str) -> frozenset[str]:
     """Channels of an act of animals without which it is not seen: paws, head, the trunk's roll."""
     row = motion_of("animal_activities", activity)
@@ -150,6 +153,8 @@ TRAVELLING = frozenset(name for name, one in ACTIVITIES.items() if one.travels)
 """Names of the activities that go from place to place."""
 DONE_SEATED = frozenset(name for name, one in ACTIVITIES.items() if one.is_done_seated)
 """Activities that people also do sitting: torso, head and arms move, the hips do not."""
+OF_ARMS = DONE_SEATED | {name for name, one in ACTIVITIES.items() if one.is_at_bench}
+"""Activities that are seen without the legs."""
 SINGLE_ACTS = frozenset(name for name, one in ACTIVITIES.items() if one.contact_s is not None)
 """Acts with one instant of contact."""
 TO_AND_FROM_SEATS = frozenset({"sit down", "stand up"})
@@ -160,6 +165,10 @@ ON_GROUND: Mapping[str, str] = MappingProxyType(
 """Names of these activities, and of sitting, where there is no seat."""
 AIMED = frozenset({"point", "wave", "look", "feed", "talk", "shout"})
 """Activities that are turned to who or what they are for."""
+ON_TOP: Mapping[str, str] = MappingProxyType({"lift": "lift off a top", "set down": "set on a top"})
+"""Names of acts on a thing, as relations, where it is or comes to be on a bench."""
+ON_FOOT = frozenset({"walk", "run", "move"})
+"""Motions of a person on the way, while whom the arms may do something else."""
 SEATED = "sit and "
 """Begins the name of what is done sitting, as "sit and read"."""
 

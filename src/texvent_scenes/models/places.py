@@ -115,6 +115,8 @@ PLACES: Mapping[str, PlaceModel] = MappingProxyType(
 )
 
 
+SEEN_FROM_AFAR: Mapping[str, str] = MappingProxyType({"city": "skyline"})
+"""Place that is a backdrop → the place that it is from outside."""
 _MOST_ROOMS = 5
 """Rooms that a piece of furniture may stand in which tells one of them: a chair stands in more."""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from texvent.prompt_report import Substitution
@@ -15,6 +15,8 @@ from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_values
 from texvent_scenes.read.draft.copies import OPPOSITE, halve, take_turns
 from texvent_scenes.read.draft.scene_draft import SceneDraft
+from texvent_scenes.read.draft.setting import leave_sky
+from texvent_scenes.read.draft.sources import find_sources
 from texvent_scenes.read.parsing.lexicon import deeds, word_set, word_table
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
 from texvent_scenes.spec.data import scene_from_data
@@ -55,12 +57,19 @@ def _reach_speed(motion: dict[str, Any], noun: Noun) -> None:
 def finish(draft: SceneDraft, prompt: str) -> Reading:
     """The scene, and its words; one that is lost at one place of the prompt is not shown."""
     _choose_gender(draft)
+    _lead_view(draft)
+    _ride_on(draft)
     _do_deeds(draft)
     _find_opponents(draft)
     _hang_up(draft)
+    find_sources(draft)
+    leave_sky(draft)
     _turn_marks(draft)
+    _skate_on_ice(draft)
     _bring_home(draft)
     _limit_counts(draft)
+    _look_up(draft)
+    _bring_weather(draft)
     fates: dict[str, str] = {}
     for token, after in zip(draft.tokens, (*draft.tokens[1:], NO_TOKEN), strict=False):
         is_open = token.is_sign or token.is_grammar
@@ -85,6 +94,26 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
         claims=tuple(_list_claims(draft)),
         dependences=tuple(_list_dependences(draft, lost)),
     )
+
+
+def _look_up(draft: SceneDraft) -> None:
+    """Show those whom one sees against the sky in the open sky, or from below."""
+    if not draft.before_sky:
+        return
+    is_free = all(draft.noun(n).habitat == "air" for n in range(len(draft.things)))
+    if is_free and "name" not in draft.parts["place"]:
+        draft.parts["place"]["name"] = "sky"
+    elif not draft.moves:
+        draft.parts["camera"].setdefault("view", "low")
+
+
+def _bring_weather(draft: SceneDraft) -> None:
+    """Add the weather that a word brings: rain of a thunderstorm that is not dry."""
+    for weather, storms in word_table("storms").items():
+        for token in draft.tokens:
+            is_dry = draft.beside(token, -1).text == "dry"
+            if token.text in storms and draft.shows(token) and not is_dry:
+                draft.parts["place"].setdefault("weather", weather)
 
 
 _TIES = ("verb", "pose", "adverb", "relation", "shot", "other")
@@ -192,6 +221,31 @@ def _hang_up(draft: SceneDraft) -> None:
             draft.relate(index, "on", [draft.add(wall)])
 
 
+def _lead_view(draft: SceneDraft) -> None:
+    """Have vehicles go before a camera that drives where their word says so: "the car ahead"."""
+    ahead, near = word_set("things", "ahead"), word_set("things", "ahead_of_us")
+    for one in draft.things:
+        word = str(one.get("word", ""))
+        if any(word.endswith(f" {each}") for each in near) and not draft.moves:
+            draft.add_move({"kind": "travel", "direction": "forward", "means": "drive"})
+        is_led = any(word.endswith(f" {each}") for each in (*ahead, *near))
+        if is_led and any(each.get("means") == "drive" for each in draft.moves):
+            goes = not one["motions"] and "is_lost" not in one
+            one["motions"] += [{"kind": "drive"}] if goes else []
+            for motion in one["motions"]:
+                if motion["kind"] in ("drive", "move") and "direction" not in motion:
+                    motion["direction"] = "away"
+
+
+def _ride_on(draft: SceneDraft) -> None:
+    """Let riders go of whom nothing is said: "a scooter rider on a road"."""
+    for one in draft.things:
+        mount = one.pop("rides", None)
+        if mount is not None and not (one["motions"] or draft.things[mount]["motions"]):
+            one["motions"] = [{"kind": "sit"}]
+            draft.things[mount]["motions"] = [{"kind": "move"}]
+
+
 def _do_deeds(draft: SceneDraft) -> None:
     """Let those do it who are named by what they do and do nothing else: "a violinist"."""
     for index, one in enumerate(draft.things):
@@ -210,10 +264,26 @@ def _bring_home(draft: SceneDraft) -> None:
     """Set the place that a compound names where no other is said: "a street musician"."""
     for before, head, noun in draft.homes:
         name = before.all("place")[0].value
-        if draft.parts["place"].setdefault("name", name) == name:
+        is_species = name in word_set("things", "species_of") and noun not in PERSON_NOUNS
+        is_species &= draft.nouns[noun].motion in ("walk", "fly", "swim")
+        if draft.parts["place"].setdefault("name", name) == name and not is_species:
             draft.show(before)
         else:
             draft.merge_compound(before, head, noun)
+
+
+def _skate_on_ice(draft: SceneDraft) -> None:
+    """Have those skate on blades who are on ice, or named so."""
+    is_ice = draft.parts["place"].get("name") in ("ice rink", "snow")
+    for index, thing in enumerate(draft.things):
+        skating = [one for one in thing["motions"] if one["kind"] == "skate"]
+        for one in skating if is_ice or thing["noun"] == "figure skater" else ():
+            one["kind"] = "ice skate"
+            draft.claims = {
+                at: [replace(each, value="ice skate")
+                     if (each.subject, each.value) == (index, "skate") else each for each in claims]
+                for at, claims in draft.claims.items()
+            }  # fmt: skip
 
 
 _LIGHT = 0.3

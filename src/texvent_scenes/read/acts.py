@@ -5,14 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache
+from typing import Any
 
 from texvent_scenes.models.activities import (
     ANIMAL_ACTIVITIES,
     DONE_SEATED,
     HAND_NOUNS,
+    ON_FOOT,
     TIMED,
     is_mutual,
 )
+from texvent_scenes.models.anchors import takes_in
 from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.tables import nouns_with, trait_values
 from texvent_scenes.read.draft.abilities import Indices
@@ -21,13 +24,17 @@ from texvent_scenes.read.parsing.lexicon import VerbSense, list_forms, word_set,
 from texvent_scenes.read.parsing.tokens import Token
 from texvent_scenes.read.relations import bear_on, lead_on, relate_one, ridden_by
 from texvent_scenes.spec.data import SENT, WAYS
+from texvent_scenes.words import list_plurals
 
 _KICKED = nouns_with("kicked or thrown")
 _SWITCHED = ("on", "off")
+_CARRYING = nouns_with("carries people")
 EGO = "ego"
 """Needs of an act that is done to the vehicle of the camera."""
 _SLOWER = 0.45
 """Speed of a camera that is overtaken, as a share of what overtakes it."""
+_SLOW, _FAST = 0.05, 1.8
+"""Paces of a machine that begins to turn: the first and the last."""
 _ROAD_M_S = 9.0
 """Speed from which on what overtakes a camera needs none that is slower than usual, m/s."""
 
@@ -41,6 +48,9 @@ def perform(
     if act is None or (has_object and not objects and act.who in ("plain", "body")):
         return None  # what it is done to is not known
     draft.show(verb)
+    act = _stand_on(draft, act, verb, objects)
+    if act.aims:
+        return _send(draft, act, verb, subjects, objects)
     if act.brings not in ("", EGO) and not objects:
         objects = [draft.add(act.brings)]
     if act.end_pace == 0.0 and act.kind == "stand" and can_arrive(draft, subjects):
@@ -62,12 +72,44 @@ def perform(
     return list(objects if act.object and objects else subjects)
 
 
+def _send(
+    draft: SceneDraft, act: VerbSense, verb: Token, subjects: Indices, objects: Indices
+) -> list[int]:
+    """Let a ball be sent to where it counts: "takes a penalty", "shoots and scores"."""
+    for index in subjects:
+        sent = draft.targets([index], [*SENT]) or list(objects)
+        if not draft.targets([index], [*SENT]):
+            sent = sent or draft.find(_KICKED)[:1] or [draft.add(act.brings)]
+            draft.relate(index, act.relation or "", sent)
+        ball = draft.things[sent[0]]["noun"]
+        goals = [n for n in draft.targets([index], ["towards", "into"])
+                 if takes_in(draft.things[n]["noun"])]  # fmt: skip
+        if not goals:
+            noun = word_table("scored_in").get(ball, act.aims)
+            goals = draft.find([noun])[:1] or [draft.add(noun)]
+            draft.relate(index, "towards", goals)
+        is_scored = verb.text.split()[0] in word_set("things", "scoring")
+        draft.claim(verb, "taken in", "", sent if is_scored else [], goals)
+    return list(subjects)
+
+
+def _stand_on(draft: SceneDraft, act: VerbSense, verb: Token, objects: Indices) -> VerbSense:
+    """An act of who rides what carries people in its place, as standing on it: an escalator."""
+    if act.relation != "ride" or not objects or not draft.names(objects) <= _CARRYING:
+        return act
+    draft.mark(verb, "stand")
+    return VerbSense(relation="on")
+
+
 def _relate_act(draft: SceneDraft, kind: str, verb: Token, index: int, objects: Indices) -> None:
     """Relate who acts to what the act is about, on a way that the staged scene holds."""
     who = ridden_by(draft, index, kind)
     about = draft.names(objects)
     if kind == "follow" and about & nouns_with("runs on"):
         kind = "past"  # "follows a pipe"
+    is_shot = verb.text.split()[0] in word_set("things", "shooting")
+    if kind == "throw" and is_shot and about and about <= word_set("things", "by_foot"):
+        kind = "kick"
     if kind == "lead":
         return lead_on(draft, verb, index, objects)
     if kind == "load":
@@ -90,9 +132,13 @@ def _choose_act(
 ) -> VerbSense | None:
     """The first sense of a verb that the subjects can do."""
     acts = [one.value for one in verb.all("verb") if subjects]
+    done = {draft.things[one].get("deed", "") for one in subjects} - {""}
+    words = {draft.things[one].get("word", "") for one in subjects}
+    if verb.text in _list_performing() and not done and words & _musicians():
+        return None  # of an instrument that nobody plays here: no game
     if verb.text in _list_performing():
-        done = {draft.things[one].get("deed", "") for one in subjects} - {""}
         acts[:0] = [VerbSense("person", one) for one in done]
+    acts.sort(key=lambda one: one.kind not in done)  # "swings at a ball": a golfer, a batter
     tools = [one for one in acts if one.who == "person" and _list_tools(one.kind)]
     if act := _act_as_person(draft, tools, subjects, objects, has_object):
         return act  # "a broom sweeping": it does not go
@@ -115,7 +161,8 @@ def _act_as_person(
 ) -> VerbSense | None:  # fmt: skip
     """An act of people that hands or their tools do: "hands typing", "a pen writing"."""
     things = [draft.things[one] for one in subjects]
-    acts = [one for one in acts if one.who == "person"]
+    of_hands = word_set("things", "of_bodies")
+    acts = [one for one in acts if one.who == "person" or one.relation in of_hands]
     if not all(one["noun"] in HAND_NOUNS for one in things):
         acts = [act for act in acts if {one["noun"] for one in things} <= _list_tools(act.kind)]
     if not (things and acts):
@@ -125,6 +172,9 @@ def _act_as_person(
         one |= {"noun": "person", "count": 1}
     for act in acts:
         if draft.fits(act, subjects, objects, has_object):
+            for token in draft.tokens if act.relation in of_hands else ():
+                if token.nouns & HAND_NOUNS:
+                    draft.mark(token, "person")  # all of whom bends down
             return act
     for one, (noun, count) in zip(things, said, strict=True):
         one |= {"noun": noun, "count": count}
@@ -140,13 +190,20 @@ def _do(draft: SceneDraft, act: VerbSense, verb: Token, index: int) -> None:
         return  # its water does so
     if act.who not in ("source", "lamp"):
         before = [one["kind"] for one in thing["motions"]]
+        if before[-1:] and before[-1].startswith("show ") and act.kind.startswith("turn "):
+            thing["motions"].pop()  # "a red light turns green", as it does anyway
+            state = before.pop()
+            draft.claims = {at: [one for one in said if one.value != state]
+                            for at, said in draft.claims.items()}  # fmt: skip
         add_motion(thing, act, goes_on=draft.last.goes_on)
         if (row := ANIMAL_ACTIVITIES.get(act.kind)) and row.effect:
             draft.add_effect(verb, row.effect, [index])
         is_seated = before[-1:] in (["sit"], ["lie"]) and act.kind in {*DONE_SEATED, "type"}
+        is_begun = find_aspect(draft, verb) is not None  # "waits and starts driving"
         is_later = draft.last.goes_on and verb.verbs("ing") and len(thing["motions"]) > len(before)
         is_end = act.kind == "break"  # of a fall: "falls, shattering"
-        if is_later and before and not (is_seated or is_end):
+        is_after = is_later and before and not (is_seated or is_end or is_begun)
+        if is_after and not (draft.walks(index) and _join(thing["motions"])):
             draft.mark(verb, f"then {act.kind}")  # "walks, waving": not at once
     elif act.who == "lamp" and act.kind in _SWITCHED:
         draft.switch(act.kind, index)
@@ -157,10 +214,55 @@ def _do(draft: SceneDraft, act: VerbSense, verb: Token, index: int) -> None:
             draft.add_effect(verb, act.kind, [index])
 
 
+def find_aspect(draft: SceneDraft, verb: Token) -> Token | None:
+    """The word before a verb that says that it begins: "starts to spin", "begins moving"."""
+    before = draft.beside(verb, -1)
+    before = draft.beside(verb, -2) if before.text == "to" else before
+    return before if before.text in word_set("things", "inceptive") else None
+
+
+def begin(draft: SceneDraft, verb: Token, subjects: Indices) -> None:
+    """Let who begins to do something rest before; machines gain speed."""
+    aspect = find_aspect(draft, verb)
+    if aspect is None or not subjects:
+        return
+    for index in subjects:
+        motions = draft.things[index]["motions"]
+        is_machine = draft.noun(index).is_working and not draft.can_go(index)
+        if is_machine and [one["kind"] for one in motions] in (
+            ["spin"],
+            ["work"],
+            ["turn"],
+            ["move"],
+        ):
+            motions[0] |= {"kind": "work", "pace": _SLOW, "end_pace": _FAST}
+        elif len(motions) == 1 and motions[0]["kind"] != "stand":
+            motions.insert(0, {"kind": "stand"})
+    draft.mark(aspect, "shown" if all(draft.things[n]["motions"] for n in subjects) else "lost")
+    draft.claim(aspect, "begin", "", subjects)
+
+
+def _join(motions: list[dict[str, Any]]) -> bool:
+    """Let an act of the arms be done on the way: "walks, waving", "talks on a phone, walking"."""
+    way = [one for one in motions if one["kind"] in ON_FOOT and "end_pace" not in one]
+    acts = [one for one in motions if one["kind"] in DONE_SEATED]
+    if not len(motions) == 2 * len(way) == 2 * len(acts) == 2:
+        return False
+    motions[:] = [*way, {**acts[0], "start_s": 0.0}]
+    return True
+
+
 def _list_tools(activity: str) -> set[str]:
     """Nouns that a person has in hand in an act."""
     props = (one for one in list_props(activity) if one.anchor.endswith("hand"))
     return {noun for prop in props for noun in prop.nouns}
+
+
+@cache
+def _musicians() -> frozenset[str]:
+    """Words of musicians who are not drawn playing: "cellists"."""
+    said = word_set("things", "musicians")
+    return frozenset(form for one in said for form in (one, *list_plurals(one)))
 
 
 @cache
@@ -185,7 +287,7 @@ def claim_act(draft: SceneDraft, act: VerbSense, verb: Token, index: int, object
         draft.claim(verb, "stop", "", [index])
     if act.who == "lamp" and draft.things[index]["noun"] not in word_set("things", "flames"):
         draft.claim(verb, "shine", "", [index])
-    if act.who in ("person", "hand", "animal") or act.kind == "lie":
+    if act.who in ("person", "hand", "animal", *draft.nouns) or act.kind == "lie":
         is_body = act.who != "plain" or draft.walks(index)
         draft.claim(verb, "activity" if is_body else "lie", act.kind, [index])
     elif verb.text in word_set("things", "hung"):

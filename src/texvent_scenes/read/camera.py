@@ -20,6 +20,8 @@ from texvent_scenes.read.things import name_group
 
 _STAYING = frozenset({"handheld", "roll", "truck"})
 """Moves of a camera over what it looks at."""
+_DRIVEN = "travel forward drive"
+"""Shot from a vehicle on a road."""
 _FIRST_PERSON = ("camera", "view", "first person")
 
 
@@ -27,6 +29,7 @@ def is_ego(draft: SceneDraft, clause: Clause) -> bool:
     """Whether a camera goes that is not named: "driving through a city"."""
     verbs = clause.verb.verbs("ing") if clause.verb is not None else ()
     travels = any(one.value.kind.startswith("travel") for one in verbs)
+    travels |= draft.is_driven and any(one.value.kind in ("follow", "dolly in") for one in verbs)
     is_place = all(one.head and names_place(one.head, "") for one in clause.subjects)
     before = draft.beside(clause.verb or NO_TOKEN, -1)
     kinds = {one.value[1] for one in before.all("scene")} | {one.kind for one in before.senses}
@@ -46,7 +49,7 @@ def sit_in(draft: SceneDraft, clause: Clause) -> Clause | None:
     nouns = nouns_of(clause.subjects)
     is_driven = [draft.nouns[one].motion for one in nouns] == ["drive"]
     is_driven &= not any(group.is_plural for group in clause.subjects)
-    if "travel forward drive" not in shots or draft.things or not (is_driven and clause.verb):
+    if _DRIVEN not in shots or draft.things or not (is_driven and clause.verb):
         return None
     way, drive = Sense("relation", "through"), lexicon_of(draft.nouns)[("driving",)]
     first = Phrase(Token("through", clause.verb.at), clause.objects)
@@ -111,20 +114,31 @@ def apply_to_camera(draft: SceneDraft, clause: Clause, *, is_own: bool) -> None:
     """Move the camera as a clause says, and name what is in view."""
     targets = list[int]()
     move = find_move(draft, clause)
+    is_driven = draft.is_driven or (move or {}).get("means") == "drive"
+    is_led = is_driven and move in (split_move("follow"), split_move("dolly in"))
     for group in clause.subjects if clause.about != "company" else ():
         name_group(draft, group, "in")
-    for group in clause.objects if not is_own else ():
+    for group in clause.objects if is_led or not is_own else ():
         targets += name_group(draft, group)
+    if is_led and move == split_move("dolly in") and clause.verb is not None:
+        draft.claim(clause.verb, "camera", "towards", [None], targets)  # "approaching a bridge"
+        move = None
+    elif is_led and _go_ahead(draft, clause.verb, targets):
+        move = None
     _lead_followed(draft, move, targets)
     for one in clause.after:
         if not isinstance(one, Phrase):
             set_scene(draft, one)
         elif is_standpoint(draft, one, move or {}):
             continue
+        elif move is not None and _go_along(draft, clause, move, one):
+            continue
         elif targets:  # as "orbits a car in front of a house"
             apply_phrase(draft, one, targets, targets)
         else:
             found, kind = apply_phrase(draft, one, [], []), one.preposition.relation
+            if is_driven and kind == "behind" and _go_ahead(draft, one.preposition, found):
+                continue
             targets += found if kind in word_set("things", "aims") else []
             turns = move is not None and move["kind"] in ("pan", "tilt")
             is_swept = turns and one.preposition.text in word_set("things", "swept")
@@ -133,7 +147,8 @@ def apply_to_camera(draft: SceneDraft, clause: Clause, *, is_own: bool) -> None:
             if found and kind in ("through", "out of"):
                 is_side = move is None or not go_through(draft, move, one.preposition, found)
             is_over = look_over(draft, one.preposition, found)
-            claim_way(draft, move, one.preposition, [] if is_over else found)
+            is_low = kind == "above" and _keeps_to_ground(draft, move)
+            claim_way(draft, move, one.preposition, [] if is_over or is_low else found)
             heads = heads_of(one.groups)
             words = heads or [each for group in one.groups for each in group.unknown]
             is_side |= bool(one.groups) and not any(map(draft.shows, words))
@@ -143,6 +158,7 @@ def apply_to_camera(draft: SceneDraft, clause: Clause, *, is_own: bool) -> None:
             is_side |= is_place and not found and kind in ("out of", "into")  # it stays there
             goes = any(each["kind"] == "travel" for each in (*draft.moves, move or {"kind": ""}))
             is_side |= goes and bool(found) and kind in ("up", "down")  # it keeps its height
+            is_side |= bool(found) and is_low
             draft.mark(one.preposition, "lost" if is_side else "shown")  # nothing is put there
     if move is not None:
         draft.add_move(move)
@@ -157,6 +173,24 @@ def _lead_followed(draft: SceneDraft, move: Mapping[str, Any] | None, targets: I
     for index in filter(draft.can_go, followed):
         thing = draft.things[index]
         thing["motions"] = thing["motions"] or [{"kind": "move"}]
+
+
+def _keeps_to_ground(draft: SceneDraft, move: Mapping[str, Any] | None) -> bool:
+    """Whether a camera goes over ground, and so over nothing that stands there."""
+    travels = [one for one in (*draft.moves, move or {}) if one.get("kind") == "travel"]
+    return bool(travels) and all(one.get("means") not in ("fly", None) for one in travels)
+
+
+def _go_ahead(draft: SceneDraft, token: Token | None, targets: Indices) -> bool:
+    """Let vehicles go before a camera that drives behind them; whether they can."""
+    is_so = token is not None and bool(targets)
+    is_so &= all(draft.noun(one).motion == "drive" for one in targets)
+    for index in targets if is_so else ():
+        draft.things[index]["motions"] = [{"kind": "drive", "direction": "away"}]
+    if token is not None and is_so:
+        draft.show(token)
+        draft.claim(token, "camera", "before", [None], targets)
+    return is_so
 
 
 def find_move(draft: SceneDraft, clause: Clause) -> dict[str, Any] | None:
@@ -243,6 +277,43 @@ def claim_way(
     is_led = move is not None and move["kind"] not in ("follow", "zoom", "handheld", "static")
     for kind in sorted(kinds)[:1] if is_led and targets else ():
         draft.claim(preposition, "camera", kind, [None], targets)
+
+
+_ALONGSIDE = {"with": None, "beside": "side", "behind": "back"}
+"""Relations to what a camera goes along with → its view of that."""
+
+
+def _go_along(draft: SceneDraft, clause: Clause, move: dict[str, Any], phrase: Phrase) -> bool:
+    """Let a camera follow what it goes with: "pans with it", "moves alongside a car".
+
+    A pan is then shown as following.
+    """
+    token = phrase.preposition
+    kind = next(iter(token.relations & _ALONGSIDE.keys()), "")
+    is_meant = draft.beside(token, 1).has("pronouns")
+    nouns = nouns_of(phrase.groups)
+    goes = bool(nouns) and all(draft.nouns[one].speed_m_s for one in nouns)
+    able = ("follow",) if kind == "behind" else ("pan", "truck", "travel", "follow")
+    if not (kind and (is_meant or goes) and move["kind"] in able):
+        return False
+    about = [*draft.last.subjects, *draft.last.nearest, *range(len(draft.things))]
+    found = [index for group in phrase.groups for index in name_group(draft, group)]
+    led = [one for one in (found if nouns else about) if draft.can_go(one)][:1]
+    if not led:
+        return False
+    if move["kind"] == "pan" and clause.verb is not None:
+        draft.mark(clause.verb, "follow")
+    for motion in (draft.things[led[0]]["motions"] if "direction" in move else ())[-1:]:
+        motion["direction"] = move["direction"]  # "pans with it from left to right"
+    move.clear()
+    move |= {"kind": "follow"}
+    draft.parts["camera"]["target"] = led[0]
+    if _ALONGSIDE[kind] is not None:
+        draft.parts["camera"].setdefault("view", _ALONGSIDE[kind])
+    _lead_followed(draft, move, led)
+    draft.show(token)
+    draft.claim(token, "camera", "before", [None], led)
+    return True
 
 
 def _list_led(

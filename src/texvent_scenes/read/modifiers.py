@@ -29,6 +29,8 @@ _QUANTITIES = ("rate_hz", "turns_hz", "blink_hz")
 """Fields of which each object has one."""
 _MEANT = {"circle": ("orbit", (*MEANS, "move", "orbit")), "stays": ("spin", ("turn",))}
 """Adverbs → the motion that some motions are by them: "turns on the spot"."""
+_CROWD = 5
+"""Persons who are a crowd."""
 _ASIDE = ("left", "right", "across", "towards", "away")
 """Directions in which what hovers leaves its place."""
 
@@ -43,7 +45,8 @@ def say_modifiers(draft: SceneDraft, group: Group, index: int) -> None:
     parts = [one.parts(Pose(0.0, 0.0, 0.0, "stand")) for one in bodies if len(colours) > 1]
     if parts and all(has_colour(each, SURFACES[one]) for each in parts for one in colours.values()):
         own = [*colours]
-    for token in group.modifiers:
+    sizes = _list_numbers(draft, group, index)
+    for token in (one for one in group.modifiers if one not in sizes):
         if token in own:
             draft.claim(token, "colour", colours[token], [index])
             continue
@@ -55,6 +58,19 @@ def say_modifiers(draft: SceneDraft, group: Group, index: int) -> None:
         draft.show(*([token] if token.has("hollow", "partitive") or is_side else []))
         draft.things[index] |= {"placement": token.text} if is_side else {}
         say_word(draft, token, [] if is_side else [index])
+    for token in sizes:
+        thing = draft.things[index]
+        thing["count"] = max(2, round(thing["count"] * token.value("field")[1]))
+        draft.show(token)
+
+
+def _list_numbers(draft: SceneDraft, group: Group, index: int) -> list[Token]:
+    """Sizes of groups, which say how many they are: "a small crowd", "a large flock of birds"."""
+    is_crowd = group.head is not None and group.head.text in word_table("groups")
+    is_crowd &= draft.things[index]["count"] >= _CROWD
+    return [one for n, one in enumerate(group.modifiers) if one.says("field", "size")
+            and (is_crowd or any(after.says("field", "count") and after.text.endswith(" of")
+                                 for after in group.modifiers[n + 1 :]))]  # fmt: skip
 
 
 def say_word(draft: SceneDraft, token: Token, subjects: Indices) -> None:
@@ -82,6 +98,8 @@ def say_word(draft: SceneDraft, token: Token, subjects: Indices) -> None:
         is_aside = token.text in word_set("things", "aside")
         draft.claim(token, "aside", "", subjects if is_aside else [])
         draft.claim(token, "reverse", "", subjects if value == "backward" else [])
+        is_close = value == "near" and token.text != "in the foreground"
+        draft.claim(token, "near", "", subjects if is_close else [])
         is_lamp = field == "rate_hz" and all("blink_hz" in one for one in things)
         draft.claim(token, "shine" if is_lamp else SEEN, "", subjects)
     else:
@@ -141,7 +159,8 @@ def _blow(draft: SceneDraft, index: int) -> bool:
     thing, noun = draft.things[index], draft.noun(index)
     if noun.is_working or {one["kind"] for one in thing["motions"]} & _IN_WIND:
         return True
-    if noun.habitat == "fixed" or noun.motion == "stand":
+    is_still = {one["kind"] for one in thing["motions"]} <= {"stand", "grow", "move"}
+    if (noun.habitat == "fixed" or noun.motion == "stand") and is_still:
         thing["motions"] = [{"kind": "sway"}]
     return bool(thing["motions"]) and thing["motions"][-1]["kind"] == "sway"
 
@@ -182,6 +201,9 @@ def _say_field(draft: SceneDraft, token: Token, said: Sense, index: int) -> None
         name = "end_m_s" if is_end else name
     if name == "direction" and motions[-1:] and motions[-1]["kind"] == "hover" and value in _ASIDE:
         motions[-1]["kind"] = "move"  # "a bubble floats past"
+    if name == "direction" and motions and value in ("across", "diagonal"):
+        held = {"across", "diagonal"} & {motions[-1].get("direction")}
+        value = "diagonal" if held else value  # "diagonally across the screen"
     set_field(draft.things[index], said.kind, name, value)
     draft.quantities[index, name] = value
 

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from texvent_scenes.description import SEEN
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
-from texvent_scenes.read.acts import perform
+from texvent_scenes.models.tables import trait_values
+from texvent_scenes.read.acts import begin, perform
 from texvent_scenes.read.draft.abilities import Indices, is_of_people
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.parsing.clauses import Clause
@@ -19,9 +20,15 @@ from texvent_scenes.read.things import name_group, pick_group
 from texvent_scenes.spec.data import PLACING, WAYS
 
 
+_OF_NOBODY = {("light", "kind"), ("place", "wave_height")}
+"""Part and name of what clauses about light and waves say."""
+
+
 def find_subjects(draft: SceneDraft, clause: Clause) -> list[int]:
     """Objects that a clause is about; in company, those that go by themselves."""
     heads = [one.head for one in clause.subjects]
+    if clause.about == "told":
+        return draft.last.nearest if all(one and draft.shows(one) for one in heads) else []
     if clause.about == "company":
         if clause.is_of_effect or not all(one and draft.shows(one) for one in heads):
             return []
@@ -32,7 +39,11 @@ def find_subjects(draft: SceneDraft, clause: Clause) -> list[int]:
         both = draft.last.nearest, draft.last.subjects
         able = [[one for one in each if _is_able(draft, clause, one)] for each in both]
         going = [one for one in draft.last.nearest if draft.can_go(one)]
-        return next(filter(None, (*able, going)), draft.last.subjects)
+        on_belt = draft.names(draft.targets(draft.last.nearest, ["on"])) & {
+            *trait_values("belt speed")
+        }
+        borne = draft.last.nearest if on_belt else []  # "a belt with bottles moving on it"
+        return next(filter(None, (*able, going, borne)), draft.last.subjects)
     if clause.subjects:
         known = len(draft.things)
         named = [
@@ -47,6 +58,12 @@ def find_subjects(draft: SceneDraft, clause: Clause) -> list[int]:
         return [index for one in (picked if any(picked) else named) for index in one]
     first = clause.after[0] if clause.after and clause.verb is None else None
     is_open = isinstance(first, Token) and (first.is_unknown or first.has("verb"))
+    second = clause.after[1] if len(clause.after) > 1 else None
+    if isinstance(first, Token) and isinstance(second, Token) and clause.verb is None:
+        is_open |= first.has("scene") and bool(second.verbs("s", "base"))  # "snow flies up"
+    if isinstance(first, Token) and " " in first.text:
+        said = {one.value[:2] for one in first.all("scene")}
+        is_open |= not said.isdisjoint(_OF_NOBODY)  # "sunlight shines through the trees"
     if is_open and not clause.about:
         return []  # "as wugs dax against it"
     return draft.last.nearest if clause.about == "nearest" else _find_meant(draft, clause)
@@ -172,6 +189,7 @@ def do_verb(
         return [], []
     if found is not None:
         draft.claim(verb, SEEN, "", subjects, objects)
+        begin(draft, verb, subjects)
     for index in subjects if found is None else ():  # what it does is not made up
         draft.things[index]["is_lost"] = True
     return ([], []) if found is None else (subjects, found or subjects)

@@ -10,7 +10,7 @@ from texvent_scenes.read.draft.abilities import Indices
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.draft.setting import names_place, set_scene
 from texvent_scenes.read.modifiers import say_word
-from texvent_scenes.read.parsing.groups import Phrase, heads_of, words_of
+from texvent_scenes.read.parsing.groups import Phrase, heads_of, nouns_of, words_of
 from texvent_scenes.read.parsing.lexicon import word_set
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
 from texvent_scenes.read.parts import are_own_parts
@@ -25,6 +25,7 @@ from texvent_scenes.read.prepositions import (
     is_standpoint,
     keep_distance,
     names_formation,
+    names_sky,
 )
 from texvent_scenes.read.relations import hand_over, relate_one
 from texvent_scenes.read.things import name_group
@@ -83,12 +84,16 @@ def _choose_placed(
     kind, before = phrase.preposition.relation, last.relation
     if kind == "with" and draft.beside(phrase.preposition, -1).has("noun"):
         others = {draft.things[index]["noun"] for index in {*draft.last.nearest} - {*subjects}}
-        if others and others <= PERSON_NOUNS | word_set("things", "vessels"):
+        bearers = word_set("things", "laden") - word_set("things", "tables")
+        if others and others <= PERSON_NOUNS | word_set("things", "vessels") | bearers:
             return draft.last.nearest  # "passes a man with a suitcase", "carries a tray with cups"
     if before == "with" and told and kind in PLACING and draft.beside(last, -1).has("place"):
         return told  # "in a room with candles on the table"
     if kind == "on" and draft.names(told) <= word_set("things", "flames"):
         return told or subjects  # "blows out the candles on a cake"
+    acted = draft.targets(subjects, ("act on", "hold", "lift"))
+    if kind in ("in", "on") and acted and _fill_vessels(draft, phrase, subjects):
+        return acted  # "arranges flowers in a vase"
     kinds = draft.acts(subjects)
     if kind in (kinds if subjects else PLACING):
         return told
@@ -104,6 +109,13 @@ def _choose_placed(
     return told if kind in PLACING and is_passed else subjects
 
 
+def _fill_vessels(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
+    """Whether a phrase names vessels that are too small for the people of whom it is said."""
+    nouns = {*nouns_of(phrase.groups)}
+    small = word_set("things", "vessels") - word_set("things", "roomy")
+    return bool(nouns) and nouns <= small and draft.names(subjects) <= PERSON_NOUNS
+
+
 def apply_phrase(draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: Indices) -> list[int]:
     """Apply a preposition with its groups, and give what they name.
 
@@ -114,8 +126,10 @@ def apply_phrase(draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: In
     if not phrase.groups or find_mutual(phrase.groups):
         _relate_back(draft, kind, phrase, subjects)
         return []
-    if dress(draft, phrase, subjects) or names_formation(draft, phrase, subjects):
+    is_told = _is_before_ego(draft, phrase, subjects, moved) or dress(draft, phrase, subjects)
+    if is_told or names_formation(draft, phrase, subjects):
         return []
+    _look_at_sky(draft, phrase, subjects)
     targets = list[int]()
     owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"
     for group in phrase.groups:
@@ -145,6 +159,32 @@ def apply_phrase(draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: In
     return targets
 
 
+def _is_before_ego(
+    draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: Indices
+) -> bool:  # fmt: skip
+    """Apply "in front of the car", where a camera drives and no other car is named."""
+    heads = heads_of(phrase.groups)
+    nouns = {noun for one in heads for noun in one.nouns}
+    is_ego = draft.is_driven and phrase.preposition.relation == "front" and bool(subjects)
+    is_ego &= len(heads) == 1 and [one.article for one in phrase.groups] == ["the"]
+    if not is_ego or not nouns or draft.find(nouns):
+        return False
+    if any(draft.nouns[one].motion != "drive" for one in nouns if one in draft.nouns):
+        return False
+    draft.show(heads[0], phrase.preposition)
+    draft.claim(phrase.preposition, "camera", "before", [None], subjects)
+    for motion in (one for n in moved for one in draft.things[n]["motions"][-1:]):
+        motion.setdefault("direction", "across")
+    return True
+
+
+def _look_at_sky(draft: SceneDraft, phrase: Phrase, subjects: Indices) -> None:
+    """See subjects before nothing but the sky, if a phrase says so: "against the sunset"."""
+    if names_sky(phrase):
+        draft.before_sky += subjects
+        draft.claim(phrase.preposition, "sky behind", "", subjects)
+
+
 def _is_spout(draft: SceneDraft, targets: Indices) -> bool:
     """Whether something comes out of a thing below: a nozzle, a funnel."""
     return trait_value("spout", draft.things[targets[0]]["noun"]) is not None
@@ -154,6 +194,8 @@ def _relate_all(
     draft: SceneDraft, token: Token, kind: str, subjects: Indices, targets: Indices
 ) -> None:
     """Apply a preposition to all that it is said of."""
+    if token.text in word_set("things", "led_along") and draft.names(targets) <= nouns_with("way"):
+        kind = "on"  # "walks along a pier"
     if handled := hand_over(draft, token, kind, subjects, targets):
         draft.mark(token, handled)
         return

@@ -30,6 +30,8 @@ _CLAIMED = PLACING | {"past", "around", "towards", "away from", "from", "off"}
 _ARRIVALS = {"into": "in", "onto": "on"}
 _SENT_OFF = frozenset({"bounce", "jump", "throw"})
 """Motions against something that is reached: no pendulum swings so before a wall."""
+_OWN_BALL = frozenset({"bounce", "dribble", "juggle"})
+"""Activities with a ball that stays by who does them: it meets no wall."""
 _RAINED_ON = (
     "on", "above", "around", "past", "behind", "front", "beside", "through", "in", "against",
 )  # fmt: skip
@@ -51,7 +53,8 @@ def find_relation(draft: SceneDraft, phrase: Phrase, subjects: Indices) -> str:
     for motions in (draft.things[one]["motions"] for one in subjects if token.text == "onto"):
         motions += [{"kind": "stand"}] if motions and motions[-1]["kind"] == "jump" else []
     sent = draft.acts(subjects)
-    sent_to = "" if "throw" in does else "towards"  # it is not thrown
+    has_ball = bool(does & {"throw", *_OWN_BALL}) and all(map(draft.walks, subjects))
+    sent_to = "" if has_ball or "throw" in does else "towards"  # it is not thrown
     is_sent = bool(sent or does & _SENT_OFF) or any(map(draft.goes, subjects))
     return sent_to if token.text == "against" and is_sent else kind
 
@@ -90,13 +93,23 @@ def lose_drift(draft: SceneDraft, after: Sequence[Phrase | Token]) -> None:
 def names_formation(draft: SceneDraft, phrase: Phrase, subjects: Indices) -> bool:
     """Whether it names a form in which some stand or go, which is lost: "flying in a spiral".
 
-    A dot in a square is a thing in another one.
+    A dot in a square is a thing in another one, as are two boxers in a ring.
     """
-    heads = heads_of(phrase.groups)
+    heads = [one for one in heads_of(phrase.groups) if not one.nouns or one.text in one.nouns]
     is_form = any(one.text in word_set("things", "forms") and not one.has("place") for one in heads)
     own = draft.names(subjects)
     is_drawn = bool(own) and own <= nouns_with("flat pattern")
     return phrase.preposition.text == "in" and is_form and not is_drawn
+
+
+def names_sky(phrase: Phrase) -> bool:
+    """Whether it says that nothing but the sky is behind: "against the sunset"."""
+    words = words_of(phrase.groups)
+    skies = {one.value for word in words for one in word.all("place")} & {"sky"}
+    lights = any(one.value[1] in ("light", "clouds") or one.value[:2] == ("light", "kind")
+                 for word in words for one in word.all("scene"))  # fmt: skip
+    clouds = any(one.nouns & word_set("things", "aloft") for one in words)
+    return phrase.preposition.text == "against" and (bool(skies) or lights or clouds)
 
 
 def find_mutual(groups: Sequence[Group], after: Sequence[Phrase | Token] = ()) -> list[Token]:

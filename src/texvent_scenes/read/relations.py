@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from texvent_scenes.models.activities import AIMED, PERSON_NOUNS
+from texvent_scenes.models.activities import ACTIVITIES, AIMED, ON_TOP, PERSON_NOUNS
 from texvent_scenes.models.anchors import has_rim, takes_in
 from texvent_scenes.models.people.outfit import can_be_worn, list_props
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
@@ -24,6 +24,9 @@ _RUNNING = frozenset({"slide", "roll", "drive", "move"})
 _ROUND = frozenset({"on", "past", "at", "in", "through", "into"})
 """Relations to a ring that those who go have along it."""
 _SMALL = nouns_with("in hand or on something")
+_BED = nouns_with("seat") | word_set("things", "tables")
+_WORKED_AT = nouns_with("worked at")
+_GROUND = nouns_with("way") | {"rug"}
 _HANDED = {"into": "in", "in": "in", "on": "on", "to": "on", "above": "on"}
 
 
@@ -44,12 +47,13 @@ def relate_one(draft: SceneDraft, kind: str, index: int, targets: Indices) -> bo
             return all([draft.relate(one, borne, [index]) for one in targets])
         if noun in nouns_with("towering"):
             return True  # it stands in the distance
-        if not any(map(draft.can_go, (index, *targets))):
+        if not any(draft.can_go(one) and draft.noun(one).motion != "roll"
+                   for one in (index, *targets)):  # fmt: skip
             return False  # "a vase with roses", "a disc with a dot"
-    if kind == "on" and noun in word_set("things", "peaks"):
-        return False  # its slopes bear nothing
+    if kind == "on" and _bears_nobody(draft, index, noun, targets):
+        return False
     targets = [ridden_by(draft, one, kind) for one in targets]  # "behind the rider"
-    used = _use(thing, noun) if kind in ("in", "into", "from", "on") else ""
+    used = _use(thing, noun) if kind in ("in", "into", "from", "on", "off") else ""
     kind = used or _choose_relation(draft, kind, index, targets[0])
     sat_at = [one["to"] for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
     if sat_at and draft.nouns[noun].speed_m_s == 0.0:  # "at a table with a laptop"
@@ -93,15 +97,47 @@ def hand_over(
     acts = [one for n in range(len(draft.things)) for one in draft.things[n]["relations"]
             if draft.things[n]["noun"] in machines and one["kind"] in ACTED
             and (n in subjects or {*one["to"]} & {*subjects})]  # fmt: skip
+    if not acts:
+        return _put_by_hand(draft, token, kind, subjects, targets)
     things = [n for one in acts for n in one["to"]]
     is_taken = kind in ("from", "off", "out of") or (acts[-1:] and acts[-1]["kind"] == "lift")
     place = "on" if is_taken else _HANDED.get("on" if token.text == "onto" else kind, "")
-    if not (things and place) or not {*targets}.isdisjoint(things):
+    if not (things and place) or kind == "with" or not {*targets}.isdisjoint(things):
         return ""
     is_so = all([draft.relate(one, place, targets) for one in things])
     left = ("relation", "into") if place == "in" else ("arrive", place)
     draft.claim(token, *(("off", "") if is_taken else left), things, targets)
     return "shown" if is_so else "lost"
+
+
+def _put_by_hand(
+    draft: SceneDraft, token: Token, kind: str, subjects: Indices, targets: Indices
+) -> str:
+    """Fate of where people put things: "puts a cup on a table"; "" = they put nothing there.
+
+    What no bench stands for has the thing all along, and nobody puts it there.
+    """
+    noun, verb = draft.things[targets[0]]["noun"], draft.last.verb
+    acts = [one for n in subjects for one in draft.things[n]["relations"]
+            if one["kind"] == "set down" and draft.things[n]["noun"] in PERSON_NOUNS]  # fmt: skip
+    place = "on" if token.text == "onto" else {"into": "in"}.get(kind, kind)
+    is_put = bool(acts) and place in ("in", "on") and verb is not None
+    if not is_put or not {*targets}.isdisjoint(acts[0]["to"]) or noun in _GROUND:
+        return ""
+    if place == "on" and all(_use(draft.things[n], noun) for n in subjects):
+        for n in subjects:
+            draft.relate(n, "beside", targets)
+        return "shown"
+    things = acts[0]["to"]
+    for n in subjects:
+        rows = draft.things[n]["relations"]
+        draft.things[n]["relations"] = [one for one in rows if one not in acts]
+        draft.things[n]["is_lost"] = True
+    if verb is not None:
+        draft.mark(verb, "lost")
+        draft.claims.pop(verb.at, None)
+    placed = [relate_one(draft, place, one, targets) for one in things]
+    return "shown" if all(placed) else "lost"
 
 
 def ridden_by(draft: SceneDraft, index: int, kind: str) -> int:
@@ -125,16 +161,58 @@ def _bear(draft: SceneDraft, index: int, targets: Indices) -> str:
         return "in"
     if all(map(draft.walks, targets)):
         is_ridden = bearer in word_set("things", "mounts") and first in PERSON_NOUNS
-        return "ride" if is_ridden else "on" if bearer in nouns_with("seat") else ""
+        if trait_value("seats", bearer) is not None and first in PERSON_NOUNS:
+            return "in"  # "a boat with two men"
+        leads_on = nouns_with("seat") | nouns_with("way") | trait_values("slope").keys()
+        return "ride" if is_ridden else "on" if bearer in leads_on else ""
     if draft.can_go(targets[0]):
         return ""
     is_put = bearer in word_set("things", "laden") and first not in nouns_with("seat")
     return "on" if is_put else "in" if bearer in word_set("things", "vessels") else ""
 
 
+def _bears_nobody(draft: SceneDraft, index: int, noun: str, targets: Indices) -> bool:
+    """Whether nothing is put on a thing: slopes of a peak; who works at it stands by it then."""
+    thing = draft.things[index]
+    is_worked_at = noun in _WORKED_AT and _works(thing) and not _use(thing, noun)
+    is_worked_at |= noun in _BED and _has_bench(thing) and not _use(thing, noun)
+    if is_worked_at:
+        draft.relate(index, "beside", targets)
+    return is_worked_at or noun in word_set("things", "peaks")
+
+
+def _has_bench(thing: Mapping[str, Any]) -> bool:
+    """Whether an act comes with a bench of its own, which stands on no bed."""
+    props = [prop for one in thing["motions"] for prop in list_props(one["kind"])]
+    return any(prop.anchor == "ground" and prop.name.startswith("bench") for prop in props)
+
+
+def _works(thing: Mapping[str, Any]) -> bool:
+    """Whether a person does something with the hands there."""
+    does = {one["kind"] for one in thing["motions"]} & ACTIVITIES.keys()
+    stays = {
+        "stand",
+        "sit",
+        "lie",
+        "jump",
+        "dance",
+        "walk",
+        "run",
+        "crawl",
+        "climb",
+        "sit down",
+        "stand up",
+        "kneel",
+        "crouch",
+    }
+    return thing["noun"] in PERSON_NOUNS and bool(does - stays)
+
+
 def _use(thing: Mapping[str, Any], noun: str) -> str:
     """Relation to what is used in an act: "pours milk into a cup"; "" = it is not."""
-    props = [prop for one in thing["motions"] for prop in list_props(one["kind"])]
+    acts = [one["kind"] for one in thing["motions"]]
+    acts += [ON_TOP[one["kind"]] for one in thing["relations"] if one["kind"] in ON_TOP]
+    props = [prop for one in acts for prop in list_props(one)]
     used = [one.anchor for one in props if noun in one.nouns]
     return "beside" if "ground" in used else "hold" if used else ""
 
@@ -145,6 +223,9 @@ def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> st
     kind = _see_inside(kind, draft.nouns[thing["noun"]].habitat, noun)
     if kind in WAYS:
         return _choose_way(draft, kind, index, other)
+    goes_among = draft.things[other]["count"] > 1 and draft.can_go(other)
+    if kind == "in" and goes_among and draft.can_go(index):
+        return "between"  # "in a traffic jam", "in a crowd"
     ends = [one.get("end_pace") for one in thing["motions"]][-1:]
     if kind == "front" and ends == [0.0]:
         return "to"  # "stops in front of a dog", which is in its way

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
-from texvent_scenes.models.tables import nouns_with, trait_value
+from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
 from texvent_scenes.read.draft.abilities import Indices
 from texvent_scenes.read.draft.copies import (
     PLURAL_COUNT,
@@ -18,7 +18,7 @@ from texvent_scenes.read.draft.copies import (
     stack,
 )
 from texvent_scenes.read.draft.scene_draft import SceneDraft, add_motion
-from texvent_scenes.read.draft.setting import names_place, set_place, set_scene
+from texvent_scenes.read.draft.setting import go_inside, names_place, set_place, set_scene
 from texvent_scenes.read.modifiers import say_modifiers, say_word
 from texvent_scenes.read.parsing.groups import Group, Phrase, is_trajectory, ordinals
 from texvent_scenes.read.parsing.lexicon import (
@@ -52,6 +52,11 @@ def pick_group(draft: SceneDraft, group: Group, known: int) -> list[int]:
     picked = add_like(draft, like[0]) if is_new else pick(draft, group.picks, group.count, whole)
     which = word_set("things", "members") | ({*ordinals()} if not is_new else set())
     for token in (*group.modifiers, *group.unknown) if picked else ():
+        if token.text in ("left", "right"):  # "the left one"
+            for index in picked:
+                draft.things[index]["placement"] = token.text
+            draft.show(token)
+            continue
         say_word(draft, token, picked)
         draft.show(*([token] if token.text == group.picks and token.text not in which else []))
     return picked
@@ -68,6 +73,8 @@ def name_group(
         group = replace(group, head=head)
     if head is not None and (formed := _list_formed(group, head)):
         return [index for one in formed for index in name_group(draft, one, relation, owners)]
+    if go_inside(draft, group, relation, owners):
+        return []
     if head is not None and names_place(head, relation) and not is_trajectory(group):
         set_place(draft, group, head, relation)
     elif head is not None and (whole := _find_whole(draft, group)):
@@ -192,7 +199,20 @@ def _add_thing(draft: SceneDraft, group: Group, head: Token) -> int:
     draft.name_kind((*group.unknown, *group.modifiers), head, draft.things[index]["noun"])
     if any(one.text in word_set("things", "stacks") for one in group.modifiers):
         stack(draft, index)
+    _mount(draft, group, head, index)
     return index
+
+
+def _mount(draft: SceneDraft, group: Group, head: Token, rider: int) -> None:
+    """Give a rider what the word before says: "a horse rider", "two scooter riders"."""
+    for token in group.words if head.text in word_set("things", "riders") else ():
+        for noun in sorted(token.nouns & trait_values("ridden").keys())[:1]:
+            draft.mark(token, "shown")
+            draft.mark(head, "shown")
+            draft.compounds.pop(head.at, None)
+            mount = draft.add(noun, draft.things[rider]["count"])
+            draft.relate(rider, "on", [mount])
+            draft.things[rider]["rides"] = mount
 
 
 def _pose_again(draft: SceneDraft, group: Group, head: Token) -> list[int]:
@@ -222,7 +242,8 @@ def _name_members(
     if group.of is not None or len(draft.things) + len(members) > MAX_BODIES:
         return []
     draft.show(head)
-    draft.last.nearest = [draft.add(noun, count) for noun, count in members]
+    deed = {"deed": done} if (done := word_table("members_do").get(head.text)) else {}
+    draft.last.nearest = [draft.add(noun, count, **deed) for noun, count in members]
     for index in draft.last.nearest:
         say_modifiers(draft, group, index)
     return draft.last.nearest

@@ -84,7 +84,8 @@ class Motion:
     rate_hz: Hertz | None = None
     """Repetitions per second: of an oscillation ("sway", "tilt", to and fro), turns of a spin."""
     start_s: Seconds | None = None
-    """Start time, s; left out: time 0, or the end of the motion before."""
+    """Start time, s; left out: time 0, or the end of the motion before. An act of the arms that
+    starts at 0 after a walk is done on the way."""
 
     @property
     def is_moving(self) -> bool:

@@ -16,7 +16,7 @@ from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.materials import Material
 from texvent_scenes.models.nouns import AFLOAT, NOUNS
-from texvent_scenes.models.places import PLACES, PlaceModel, list_telling
+from texvent_scenes.models.places import PLACES, SEEN_FROM_AFAR, PlaceModel, list_telling
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.shapes import rod
 from texvent_scenes.models.tables import nouns_with
@@ -33,6 +33,7 @@ from texvent_scenes.staging.particles.choose import (
     stage_effects,
 )
 from texvent_scenes.staging.particles.effect import Setting
+from texvent_scenes.staging.placement.crossing_turns import part_turns
 from texvent_scenes.staging.placement.object_placement import ObjectPlacer
 from texvent_scenes.staging.placement.zones import keep_to_zones, zone_of
 from texvent_scenes.staging.surroundings.environment import (
@@ -148,6 +149,7 @@ def compose_scene(
     )
     actors = placer.place_all()
     if travel is None:
+        actors = part_turns(description, PLACES[place], actors)
         actors = keep_to_zones(description, PLACES[place], actors, duration_s)
     actors = break_up(description, actors, duration_s)
     ground = contrasting(PLACES[place], description, actors)
@@ -303,7 +305,7 @@ def _scatter_all(
         rails = (rule for rule in PLACES["railway"].scenery if rule.is_structure)
         rules.extend(rails if is_outside and PLACES[place].ground is not Ground.NONE else ())
     for backdrop in surroundings.backdrops:
-        own = PLACES[backdrop].scenery
+        own = PLACES[SEEN_FROM_AFAR.get(backdrop, backdrop)].scenery
         far = [rule for rule in own if rule.where == "far"]
         # What stands before the mountains on land would stand in the sea.
         rules.extend(far if far and PLACES[place].ground is Ground.SEA else own)

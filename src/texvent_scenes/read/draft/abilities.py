@@ -29,6 +29,7 @@ _THROWN_M = 2.0
 """Greatest extent of what is thrown, caught or kicked, m."""
 _SWITCHED_S = 1.0
 """Time at which a lamp is switched of which no time is said."""
+_CARRYING = nouns_with("carries people") | nouns_with("seat") | {"rocking horse"}
 _ALONG = ("push", "pull", "knock over")
 """Relations of what goes by itself."""
 
@@ -84,6 +85,11 @@ class Abilities:
         """Whether an object is said to go somewhere, by itself or as what it rides."""
         return bool(self.does([index]) & {*MEANS, "move", "roll", "slide", "crawl"})
 
+    def rides(self, index: int) -> bool:
+        """Whether an object is on what is ridden: "two men on motorcycles"."""
+        ridden = self.names(self.targets([index], ["ride", "on"]))
+        return bool(ridden & trait_values("ridden").keys())
+
     def is_swung(self, index: int) -> bool:
         """Whether an object is on a swing."""
         return bool(self.names(self.targets([index], ["on"])) & nouns_with("swings"))
@@ -107,6 +113,12 @@ class Abilities:
     def walks(self, index: int) -> bool:
         """Whether an object is a person or an animal on feet."""
         return self.noun(index).motion == "walk"
+
+    def may_carry(self, index: int) -> bool:
+        """Whether people ride an object: what goes or can be sat on, no big wheel."""
+        noun = self.noun(index)
+        is_ridden = trait_value("ridden", noun.name) or trait_value("seats", noun.name)
+        return bool(is_ridden) or noun.habitat != "fixed" or noun.name in _CARRYING
 
     def rises(self, index: int) -> bool:
         """Whether an object that is let go rises, as a balloon does, or flies away."""
@@ -140,7 +152,9 @@ class Abilities:
             needs_hands &= not is_rider
             needs_body = verb.relation in word_set("things", "of_bodies")  # no hand bends down
             is_acting &= not needs_body or names <= PERSON_NOUNS
-            needs_hands &= verb.relation != "hold" or not self._has_mouths(subjects, objects)
+            is_hung = names <= nouns_with("carries below")
+            has_mouths = is_hung or self._has_mouths(subjects, objects)
+            needs_hands &= verb.relation != "hold" or not has_mouths
             is_moved = verb.object != "work" or self.names(objects) <= swings
             is_moved &= verb.object not in TIMED or all(
                 verb.object in self.noun(n).acts for n in objects
@@ -154,6 +168,7 @@ class Abilities:
                 can_be_worn(self.things[n]["noun"]) for n in objects
             )
             is_moved &= verb.relation not in ACTED or not self._are_moved(subjects, objects)
+            is_moved &= verb.relation != "ride" or all(map(self.may_carry, objects))
             is_moved &= verb.relation != "move over"
             is_moved &= verb.relation != "beside" or not is_acting  # no hand only stands by
             return bool(verb.relation) and (is_acting or not needs_hands) and is_moved
@@ -213,6 +228,7 @@ class Abilities:
             case "walker" | "machine" | "bearer" | "belt":
                 is_load = verb.who in ("bearer", "belt")
                 is_said = has_object and bool(objects) if is_load else not has_object
+                is_said &= verb.who != "walker" or not any(map(self.rides, subjects))
                 return is_said and self._suits(verb.who, names)
             case "body" if any(self.nouns[one].motion not in ("roll", "drive") for one in names):
                 return False  # no dart, which would go along the ground
@@ -223,7 +239,8 @@ class Abilities:
             case "camera":
                 return False
             case noun if noun in self.nouns:
-                return names <= {"hand": HAND_NOUNS}.get(noun, {noun}) and not has_object
+                is_who = names <= {"hand": HAND_NOUNS}.get(noun, {noun})
+                return is_who and (not has_object or bool(verb.relation and objects))
         walks = all(map(self.walks, subjects))
         is_unfit |= is_way and verb.kind == "move"
         is_unfit &= is_ground or is_way or verb.kind == "break" or bool(names & PERSON_NOUNS)

@@ -20,6 +20,8 @@ _SAID_TWICE = ("travel", "handheld", "static")
 """Moves of which a verb says what a shot is: "handheld camera shaking"."""
 _NEAR = 3
 """Words from an effect to what it comes from: "smoke is rising from a chimney"."""
+_DRIVEN = "travel forward drive"
+"""Shot from a vehicle on a road."""
 _UNTURNED = ("handheld", "static")
 _TURNING = ("spin", "roll", "slide")
 BLINK_HZ = 2.0
@@ -72,6 +74,8 @@ class SceneDraft(Abilities):
     phases: int = 0
     """Times that "then" was said: effects begin in that phase, light and weather do not change."""
     effects: list[dict[str, Any]] = field(default_factory=list)
+    is_over: bool = False
+    """Whether the sky is named, and not that anything is in it."""
     """Effects, each with the index of its source."""
     absent: list[str] = field(default_factory=list)
     parts: dict[str, dict[str, Any]] = field(
@@ -91,6 +95,8 @@ class SceneDraft(Abilities):
     one."""
     compounds: dict[int, str] = field(default_factory=dict)
     """Number of a token → the compound of which it is the head, and which is shown as it."""
+    before_sky: list[int] = field(default_factory=list)
+    """Objects behind which only the sky is seen: "against the sunset"."""
     homes: list[tuple[Token, Token, str]] = field(default_factory=list)
     """Places before names of those who go anywhere, as of "a street cat"; their nouns."""
 
@@ -154,6 +160,12 @@ class SceneDraft(Abilities):
             self.moves.append({**move, **phase})
         if move.get("means") == "fly":
             self.parts["camera"].setdefault("view", "aerial")
+
+    @property
+    def is_driven(self) -> bool:
+        """Whether a prompt says of its view that it is from a vehicle on a road."""
+        shots = {sense.value for token in self.tokens for sense in token.all("shot")}
+        return _DRIVEN in shots or any(one.get("means") == "drive" for one in self.moves)
 
     def set_journey(self, name: str, value: Any) -> bool:
         """Set a speed or a rate of the camera's last move that has one; False: none has."""
@@ -264,6 +276,9 @@ def add_motion(thing: dict[str, Any], act: VerbSense, *, goes_on: bool = False) 
         return
     if goes_on and act.kind == "move" and (last["kind"] in MEANS or "speed_m_s" in last):
         last |= {"direction": act.direction} if act.direction else {}
+        return
+    if goes_on and act.kind in MEANS and act.kind == last["kind"]:
+        last.setdefault("pace", act.pace)  # "runs through a park, chasing butterflies"
         return
     if act.kind == "move" and act.end_pace == 0.0 and last["kind"] in _TURNING:
         last["end_pace"] = 0.0  # "a spinning coin comes to rest"

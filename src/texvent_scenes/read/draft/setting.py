@@ -38,12 +38,14 @@ def set_scene(draft: SceneDraft, token: Token, things: Sequence[Any] = ()) -> bo
     for part, name, value in said:
         if name == "name" and value in ("sky", "indoor") and draft.parts[part].get(name):
             continue  # "in a kitchen, indoors"
-        if value != "day" or name not in draft.parts[part]:  # "overcast daylight"
+        if value not in ("day", "overcast") or name not in draft.parts[part]:  # "dusk, overcast"
             draft.parts[part][name] = value
     is_near = token.text.split()[0] in word_set("things", "nearest")
     draft.claim(token, "macro", "", [None] if is_near else [])
     is_said = token.has("shot", "scene")
-    draft.show(*([token] if is_said else []))
+    lights = [value for part, name, value in said if (part, name) == ("light", "kind")]
+    is_sun = bool(lights) and token.text in word_set("things", "suns")
+    draft.mark(token, lights[0]) if is_sun else draft.show(*([token] if is_said else []))
     return is_said
 
 
@@ -70,6 +72,8 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
     """As "on a snowy road", "a red sky", "a mountain road"; a second place is far off."""
     place = draft.parts["place"]
     name = head.all("place")[0].value
+    is_room_again = head.text == "room" and "name" in place and is_room(place["name"])
+    name = place["name"] if is_room_again else name
     is_it = name in ("sky", place.get("name", name))
     for token in group.modifiers:
         field, value = token.value("field")
@@ -90,13 +94,43 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
         _fill_place(draft, token, name)
     set_scene(draft, head)
     is_said = bool(group.modifiers) and relation not in ("in", "on", "through")
-    if not is_it and name in word_set("things", "backdrops") and not is_room(place["name"]):
-        place["backdrops"] = list(dict.fromkeys([*place.get("backdrops", ()), name]))
+    is_bare = name == "sky" and not relation and "name" not in place
+    draft.is_over |= is_bare
+    if is_bare and leave_sky(draft):
+        draft.show(head)
+    elif not is_it and name in word_set("things", "backdrops") and not is_room(place["name"]):
+        far = "city" if name == "skyline" else name
+        place["backdrops"] = list(dict.fromkeys([*place.get("backdrops", ()), far]))
         draft.show(head)
     elif (name == "sky" and is_said) or place.setdefault("name", name) == name or (
         head.is_liquid and place["name"] in word_set("things", "waters")
     ):  # fmt: skip
         draft.mark(head, name if head.text in word_set("things", "stand_ins") else "shown")
+
+
+def go_inside(draft: SceneDraft, group: Group, relation: str, owners: Sequence[int]) -> bool:
+    """Show a room for the building in which some are who walk; whether it does.
+
+    As in "a man prays in a church", where no place is said and the building is no thing yet.
+    """
+    head, rooms = group.head, word_table("interiors")
+    noun = group.noun.noun if group.noun is not None else ""
+    is_open = relation == "in" and noun in rooms and "name" not in draft.parts["place"]
+    if head is None or not (is_open and owners) or draft.find([noun]):
+        return False
+    if not all(map(draft.walks, owners)):
+        return False
+    draft.parts["place"]["name"] = rooms[noun]
+    draft.mark(head, rooms[noun])
+    return True
+
+
+def leave_sky(draft: SceneDraft) -> bool:
+    """Leave open where things on the ground are of which only the sky is said: "it is clear"."""
+    on_ground = draft.is_over and any(map(draft.keeps_to_ground, range(len(draft.things))))
+    if on_ground and draft.parts["place"].get("name") == "sky":
+        del draft.parts["place"]["name"]
+    return on_ground
 
 
 def _fill_place(draft: SceneDraft, token: Token, place: str) -> None:

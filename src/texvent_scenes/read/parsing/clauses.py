@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 
 from texvent_scenes.models.people.outfit import can_be_worn
 from texvent_scenes.models.tables import nouns_with
@@ -15,7 +16,7 @@ from texvent_scenes.read.parsing.groups import (
     heads_of,
     nouns_of,
 )
-from texvent_scenes.read.parsing.lexicon import word_set, word_table
+from texvent_scenes.read.parsing.lexicon import list_forms, word_set, word_table
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
 
 _IS = ("is", "are", "was", "were")
@@ -37,8 +38,8 @@ class Clause:
     """Whether its object is a pronoun: "overtakes them"."""
     about: str = ""
     """Subject that is not named: "camera"; that of the clause before, "same", "meanwhile" or "then"
-    (later); "nearest", its last group; "company", either: "a boat with dolphins jumping". "where":
-    they are by its last group."""
+    (later); "nearest", its last group; "company", either: "a boat with dolphins jumping"; "told",
+    its objects: "watches a dog jump". "where": they are by its last group."""
 
     @property
     def is_of_effect(self) -> bool:
@@ -60,6 +61,13 @@ class Clause:
 def read_clauses(tokens: Sequence[Token]) -> tuple[Clause, ...]:
     """Clauses of the tokens, in order."""
     return tuple(one for one in _Parser(tokens).clauses() if one != Clause())
+
+
+@cache
+def _list_leading() -> frozenset[str]:
+    """Forms of verbs before somebody and what that one does."""
+    verbs = word_set("things", "leading")
+    return frozenset(form for verb in verbs for form, _ in list_forms(verb))
 
 
 class _Parser(GroupReader):
@@ -129,8 +137,10 @@ class _Parser(GroupReader):
         is_part = any(one.picks for one in clause.subjects)
         if is_part and clause.verb is None and token.has("verb"):
             return Clause(about="same")  # "two balls, one red and one blue, collide"
-        if clause.verb is not None and token.verbs("ing") and not after.has("noun"):
-            return Clause(about="meanwhile")  # "sits, reading"
+        takes = {each for one in token.verbs("ing") for each in (one.value.relation, one.value.kind)}
+        is_act = bool(takes & word_set("things", "done_to"))
+        if clause.verb is not None and token.verbs("ing") and (is_act or not after.has("noun")):
+            return Clause(about="meanwhile")  # "sits, reading", "sits, feeding ducks"
         owners, own = word_set("things", "owners"), {after.text, self._token(2).text}
         if token.text in owners and own & word_table("parts").keys():
             return Clause()  # "a fan, its blades spinning"
@@ -146,6 +156,8 @@ class _Parser(GroupReader):
 
     def _begin_with_verb(self, clause: Clause) -> Clause | None:
         """Clause of a second verb: of a participle, or after one, as in "a car turning passes"."""
+        if (led := self._begin_led(clause)) is not None:
+            return led
         token, verb = self._token(), clause.verb
         before = clause.after[-1] if clause.after else None
         phrase = before if isinstance(before, Phrase) else None
@@ -168,6 +180,17 @@ class _Parser(GroupReader):
         is_next = token.verbs(*forms) and self._is_verb(replace(clause, verb=None))
         return Clause(about="meanwhile") if is_next else None
 
+    def _begin_led(self, clause: Clause) -> Clause | None:
+        """Clause of what one does who is taught, helped or watched: "teaches a dog to jump"."""
+        last = clause.objects[-1].head if clause.objects and not clause.after else None
+        if clause.verb is None or last is None or last is not self._token(-1):
+            return None
+        is_marked = self._token().text == "to" or self._token().has("infinitive")
+        if clause.verb.text not in _list_leading() or not self._token(is_marked).verbs("base"):
+            return None
+        self._at += is_marked
+        return Clause(clause.objects, about="told")
+
     # Parts of a clause: each step gives the clause with what it has read, or None
 
     def _read_camera(self, clause: Clause) -> Clause | None:
@@ -179,6 +202,8 @@ class _Parser(GroupReader):
             self._at += ahead + (not is_shot)  # "a dashcam driving" is a shot as well
             return replace(clause, about="camera")
         verbs = {one.value.who for one in self._token().verbs("base")}
+        leads = word_set("things", "camera_leads")
+        verbs |= {"camera"} if self._at == 0 and self._token().text in leads else set()
         is_command = verbs == {"camera"} or ("camera" in verbs and self._at == 0)
         if clause == Clause() and is_command and not self._token().has("noun"):
             return Clause(about="camera", verb=self._take())

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
-from itertools import product
+from itertools import product, repeat
 from types import MappingProxyType
 from typing import Any, TypeAlias
 
@@ -40,6 +40,8 @@ def word_set(table: str, key: str) -> frozenset[str]:
 def list_forms(phrase: str) -> list[tuple[str, str]]:
     """Forms of a phrase that begins with a verb, and the name of each: "walks in"."""
     base, _, rest = phrase.partition(" ")
+    if " ".join((base, *rest.split()[:1])) in word_set("things", "compound_verbs"):
+        return [(f"{base} {words}", form) for words, form in list_forms(rest)]  # "ice skating"
     forms = list_verb_forms(base, word_table("irregular").get(base, ""))
     return [(f"{word} {rest}".strip(), form) for word, form in forms]
 
@@ -84,6 +86,8 @@ class VerbSense:
     """Motion of its object."""
     brings: str = ""
     """Noun of the object that it needs not say: "kicks a penalty"."""
+    aims: str = ""
+    """Noun of what it sends that to: "scores"."""
     is_near: bool = False
     """Whether it is reported as shown by another one."""
 
@@ -174,7 +178,7 @@ def _list_plain_verbs() -> Iterator[tuple[str, VerbSense]]:
             yield base, VerbSense(who, kind, float(pace or 1))
     for phrase, said in word_table("verbs").items():
         senses = said if isinstance(said, list) else [said]
-        yield from ((base, VerbSense(**one)) for base, one in product(_expand(phrase), senses))
+        yield from ((base, VerbSense(**one)) for base, one in product(expand(phrase), senses))
 
 
 _PERFORMERS = (("person", ACTIVITIES), ("hand", HAND_GESTURES))
@@ -183,14 +187,23 @@ _PERFORMERS = (("person", ACTIVITIES), ("hand", HAND_GESTURES))
 def _list_activities() -> Iterator[tuple[str, VerbSense]]:
     for who, table in _PERFORMERS:
         for name, activity in table.items():
-            yield from ((phrase, VerbSense(who, name)) for phrase in activity.words)
-            yield from ((phrase, VerbSense(who, name, is_near=True)) for phrase in activity.near)
+            for is_near, phrases in ((False, activity.words), (True, activity.near)):
+                yield from ((one, VerbSense(who, name, is_near=is_near))
+                            for phrase in phrases for one in _list_numbers(phrase))  # fmt: skip
             yield from _list_acts(who, name, activity)
     for name, activity in ANIMAL_ACTIVITIES.items():
         yield from ((verb, VerbSense("animal", name)) for verb in activity.words)
         yield from _list_acts("animal", name, activity)
     for name, effect in EFFECTS.items():
         yield from ((verb, VerbSense("source", name)) for verb in effect.verbs)
+
+
+def _list_numbers(phrase: str) -> Iterator[str]:
+    """A phrase of an act, and the same of several things: "iron a shirt", "iron shirts"."""
+    yield phrase
+    verb, article, what = phrase.partition(" a ")
+    if article and what.split()[-1] not in _PARTICLES:
+        yield from (f"{verb} {one}" for one in list_plurals(what) if one != what)
 
 
 def _list_acts(who: str, name: str, activity: Activity) -> Iterator[tuple[str, VerbSense]]:
@@ -248,9 +261,9 @@ def _list_words() -> Iterator[tuple[str, Sense]]:
     for field, units in word_table("units").items():
         yield from ((unit, Sense("unit", (field, each))) for unit, each in units.items())
     for path, phrases in _walk(word_table("senses")):
-        yield from ((phrase, _sense_of(*path)) for phrase in phrases)
+        yield from zip(phrases, repeat(_sense_of(*path)))
     for row in word_table("acting"):
-        yield from ((phrase, _sense_of(*row["sense"])) for phrase in _list_acting(row))
+        yield from zip(_list_acting(row), repeat(_sense_of(*row["sense"])))
 
 
 def _list_acting(row: Mapping[str, Any]) -> Iterator[str]:
@@ -272,7 +285,7 @@ def _walk(table: Mapping[str, Any], path: tuple[str, ...] = ()) -> Iterator[tupl
     for key, value in table.items():
         if isinstance(value, list):
             around = _AROUND if "shot" in path or "camera" in path else "{}"
-            yield (*path, key), [each for one in value for each in _expand(around.format(one))]
+            yield (*path, key), [each for one in value for each in expand(around.format(one))]
         else:
             yield from _walk(value, (*path, key))
 
@@ -281,7 +294,7 @@ _AROUND = "(from |by |with |in |){}( only|)"
 """Words about a shot that say no more: "from an aerial view", "forward motion only"."""
 
 
-def _expand(phrase: str) -> Iterator[str]:
+def expand(phrase: str) -> Iterator[str]:
     """Phrases with one of the words between brackets each: "(top|overhead) view( of|)"."""
     parts = re.split(r"[()]", phrase)
     choices = [one.split("|") if number % 2 else [one] for number, one in enumerate(parts)]

@@ -13,7 +13,7 @@ from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, read_table, trait_value
 from texvent_scenes.read.parsing.groups import is_plural_form
-from texvent_scenes.read.parsing.lexicon import NounSense, Sense, word_set, word_table
+from texvent_scenes.read.parsing.lexicon import NounSense, Sense, expand, word_set, word_table
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token, token_at
 from texvent_scenes.words import list_plurals
 
@@ -36,6 +36,7 @@ def choose_senses(tokens: Sequence[Token], nouns: Mapping[str, Noun]) -> list[To
     mouse runs, or lies beside a keyboard. Where nothing does, the word is not understood.
     """
     tokens = [_see_as_young(_see_as_move(one, tokens), tokens) for one in _drop_similes(tokens)]
+    tokens = [_see_as_operator(_see_as_showing(one, tokens), tokens) for one in tokens]
     tokens = [replace(one, senses=()) if _is_of_light(one, tokens) or _is_state(one, tokens)
               else one for one in tokens]  # fmt: skip
     named = [_see_as_mass(_see_as_verb(one, tokens), tokens) for one in tokens]
@@ -59,7 +60,8 @@ def _see_as_move(token: Token, tokens: Sequence[Token]) -> Token:
     """The token without a move of the camera of which it is not said: "tracks"."""
     is_open = any(token.text in (one, *list_plurals(one)) for one in word_set("ambiguous", "words"))
     is_said = any(one.has("camera") for one in tokens[max(token.at - _NEAR, 0) : token.at])
-    return replace(token, senses=()) if is_open and not is_said else token
+    kept = tuple(one for one in token.senses if one.kind != "verb")
+    return replace(token, senses=kept) if is_open and not is_said else token
 
 
 def _see_as_young(token: Token, tokens: Sequence[Token]) -> Token:
@@ -69,6 +71,38 @@ def _see_as_young(token: Token, tokens: Sequence[Token]) -> Token:
     is_animal = any(NOUNS[one].acts or NOUNS[one].speed_m_s > 0.0 for one in animals & _LIVING)
     is_young = token.text in word_set("things", "young") and is_animal
     return replace(token, senses=(Sense("field", ("size", 0.5)),)) if is_young else token
+
+
+def _see_as_operator(token: Token, tokens: Sequence[Token]) -> Token:
+    """The token as the camera, if it flies that: "aerial view of a coast, the drone pulls back"."""
+    before, after = token_at(tokens, token.at - 1), tokens[token.at + 1 : token.at + 1 + _NEAR]
+    is_flown = token.text in word_set("things", "flown") and token.has("noun")
+    if (
+        not is_flown
+        or before.text != "the"
+        or any(one.text == token.text for one in tokens[: token.at])
+    ):
+        return token
+    is_aerial = any(
+        one.value == ("camera", "view", "aerial") for each in tokens for one in each.all("scene")
+    )
+    is_aerial |= any(
+        one.value == "travel forward fly" for each in tokens for one in each.all("shot")
+    )
+    verbs = [one for each in after[:2] for one in each.all("verb")]
+    moves = {one.value.kind for one in verbs if one.value.who == "camera"}
+    is_shooting = bool(moves) and not any(one.value.who != "camera" for one in verbs)
+    is_camera = is_shooting or (is_aerial and bool(moves))
+    return replace(token, senses=(Sense("camera", "camera"),)) if is_camera else token
+
+
+def _see_as_showing(token: Token, tokens: Sequence[Token]) -> Token:
+    """The token as the verb or as the word of style that it is: "shows a boy how to swim"."""
+    if not (token.has("style") and token.has("verb")):
+        return token
+    is_verb = any(one.has("infinitive") for one in tokens[token.at :])
+    kind = "verb" if is_verb else "style"
+    return replace(token, senses=token.all(kind))
 
 
 def _is_state(token: Token, tokens: Sequence[Token]) -> bool:
@@ -150,12 +184,26 @@ def _see_beside(token: Token, tokens: Sequence[Token]) -> Token:
     others |= {re.sub(r"['’]s$", "", one.text) for one in tokens}
     others |= {one.value[1] for each in tokens for one in each.all("pose")}
     others |= {one.value.kind for each in tokens for one in each.all("verb")}
-    row = next((one for one in rows if others & {*one["nouns"]}), None)
+    before = _words_before(token, tokens)
+    row = next((one for one in rows if others & {*one.get("nouns", others)}
+                and others.isdisjoint(one.get("without", ()))
+                and any(before.endswith(f"{led} ") for each in one.get("led", [""]) for led in expand(each))), None)  # fmt: skip
     is_led = token_at(tokens, token.at - 1).has("articles", "field")  # no camera's "pan"
     if row is None or not (senses or token.is_unknown or is_led):
         return token
+    if "place" in row:
+        return replace(token, senses=(Sense("place", row["place"]),))
     sense = replace(senses[0] if senses else NounSense(""), noun=row["noun"])
+    sense = replace(
+        sense, is_plural=sense.is_plural or token.text in list_plurals(sense.noun or "-")
+    )
     return replace(token, senses=(Sense("noun", sense),) if sense.noun else ())
+
+
+def _words_before(token: Token, tokens: Sequence[Token]) -> str:
+    """The words before a token, without articles, each after a space: " cars wait at red"."""
+    led = tokens[max(token.at - 2 * _NEAR, 0) : token.at]
+    return "".join(f" {one.text}" for one in led if not one.has("articles")) + " "
 
 
 def _relate(token: Token, tokens: Sequence[Token]) -> Token:

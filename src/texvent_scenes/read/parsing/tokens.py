@@ -42,7 +42,8 @@ _NUMBER = (
 )
 _WORD = re.compile(_NUMBER + r"|[^\W\d_]+(?:['’][^\W\d_]+)*|[^\W_]|[.,;:!?/()]")
 _OWNER = re.compile(r"['’]s?$")
-_GRAMMAR = ("articles", "pronouns", "conjunctions", "relatives", "style", "purpose", "camera")
+_GRAMMAR = ("articles", "pronouns", "conjunctions", "relatives", "style", "purpose", "camera",
+            "infinitive")  # fmt: skip
 """Senses of words that a report does not list unless they are lost or shown."""
 _MIXED = re.compile("(?<=[0-9])(?=[¼-¾⅐-⅞])")
 """Between "1" and "½", which NFKC would join to 11/2."""
@@ -265,7 +266,7 @@ def _read_phrase(
         if len(phrase) > 1 and found:
             found = _without_chance(found, words, end, before)
             found = () if _is_shade(words, end, lexicon) else found
-            is_thing = len(phrase) < end + 1 - at  # "approaching the camera", no moving camera
+            is_thing = len(phrase) == 2 < end + 1 - at  # "approaching the camera", no camera
             found = tuple(one for one in found if not (is_thing and one.kind == "noun"))
         if found:
             length, senses = end + 1 - at, found
@@ -274,6 +275,12 @@ def _read_phrase(
         return _as_senses(stated)
     if is_number:
         return _as_senses(read_height(words, at) or read_quantity(words, at, lexicon))
+    lead = 1 + (words[at].casefold() == "a")  # "at a constant 600 rpm"
+    before, *rest = (*words[at : at + lead][-1:], *words[at + lead :])
+    if length == 1 and rest and before.casefold() in word_set("senses", "steady"):
+        further, said = read_quantity(rest, 0, lexicon)
+        if further > 1 and said:
+            return _as_senses((lead + further, said))
     return length, senses
 
 
@@ -312,7 +319,8 @@ def _without_chance(
     """Senses of several words that do not stand together by chance.
 
     As in "a dog moves in a circle" (no camera), "a pedestrian crossing the street", "a bus stops"
-    (no things), "steps out from behind a car" (no view), "comes down the road" (no fall).
+    (no things), "steps out from behind a car" (no view), "comes down the road" (no fall),
+    "headlights on a road" (no lamps that are lit).
     """
     after = words[end + 1].casefold() if end + 1 < len(words) else ""
     articles = word_set("senses", "articles")
@@ -322,16 +330,18 @@ def _without_chance(
         or [one.casefold() for one in words[end + 1 : end + 3]] == ["in", "front"]
         or _is_act(words, end, before)
     )
+    is_placed = after == "of" and words[end].casefold() == "front"  # "a car in front of a house"
     is_many = bool(before) and before[-1].text.endswith(" of")  # "a stack of cardboard boxes"
     is_single = any(one.text in ("a", "an") for one in before[-2:]) and not is_many
     is_of_camera = not before or before[-1].is_sign or any(one.has("camera") for one in before[-9:])
     return tuple(
         one for one in senses
-        if (one.kind != "noun" or not (is_verb or (is_single and one.value.is_plural)))
+        if (one.kind != "noun" or not (is_verb or is_placed or (is_single and one.value.is_plural)))
         and (one.kind != "verb" or one.value.who != "camera" or is_of_camera)
         and (one.kind != "scene" or one.value[1] != "view" or after == "that"
              or after not in articles | {"to"})
-        and not (after in articles and one.kind == "verb" and one.value.who in ("plain", "lamp")
+        and not (after in articles and one.kind == "field" and one.value[0] == "is_lit")
+        and not (after in articles and one.kind == "verb" and one.value.who in ("plain", "lamp", "machine")
                  and one.value.relation is None and words[end] in word_set("things", "particles")
                  and not _is_switched(one.value.who, words[end + 1 : end + 5]))
     )  # fmt: skip

@@ -98,6 +98,8 @@ def _choose_elevation(main: Actor, place: str, is_in_depth: bool) -> float:
         return _ROOM_ELEVATION
     if main.noun.name in nouns_with("takes off") and place == "runway":
         return _ONTO_STRIP
+    if main.noun.name in nouns_with("out of clouds"):
+        return ELEVATIONS["low"]
     if main.noun.habitat == "air":
         return -0.03
     if not main.is_mover and model.height > 5.0:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent_scenes.description import SceneDescription
-from texvent_scenes.models.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.activities import HAND_NOUNS, OF_ARMS, PERSON_NOUNS
 from texvent_scenes.models.anchors import has_rim
 from texvent_scenes.models.effects import EFFECTS
 from texvent_scenes.models.tables import nouns_with, trait_value
@@ -72,7 +72,7 @@ def acts_with_arms(actor: Actor, times: Float64Array) -> bool:
     if actor.noun.name in HAND_NOUNS:
         return actor.track.is_resting
     activities = {actor.pose(float(time)).activity for time in times}
-    return actor.noun.name in PERSON_NOUNS and activities <= DONE_SEATED
+    return actor.noun.name in PERSON_NOUNS and activities <= OF_ARMS
 
 
 class FramingChoice(NamedTuple):

@@ -40,7 +40,8 @@ def handle(subject: Actor, target: Actor, number: int = 0) -> tuple[Actor, Actor
     is_before = upon.at == "front"
     offset = _before(upon, subject, target) if is_before else _at(upon, subject, target)
     aside = (number + 1) // 2 * (-1.0 if number % 2 else 1.0) * _APART
-    offset = offset + np.outer([0.0, aside * target.model.width, 0.0], [0.0, 0.0, 0.0, 1.0])
+    row = np.array([float(upon.at == "ground"), 1.0, 0.0])  # on a bench aslant: none hides others
+    offset = offset + np.outer(aside * target.model.width * row, [0.0, 0.0, 0.0, 1.0])
     place = "ground" if is_before else upon.at
     kept = target.track.at(0.0).activity
     is_upright = not (is_tool(target) and place.endswith("hand"))

@@ -33,6 +33,10 @@ _STYLES: dict[str, Vector | None] = {
 _HANDS_FREE = frozenset({"stand", "move", "walk", "run"})
 """Activities that leave the hands to what they hold."""
 _HANDS = ("left hand", "right hand")
+_BACK_M = 0.12
+"""From the middle of the body of an adult to the back, m."""
+_ARMS = 1.06
+"""Height of arms that have somebody across them, in that of the holder, who is adult at 1, m."""
 _STRETCH = 0.60
 """Distance from shoulder to palm of an arm that is nearly straight, m."""
 
@@ -42,6 +46,9 @@ _SEAT_M = 0.42
 
 _IN_PALM, _HAND_M = 0.35, 0.1
 """Height at which a hand alone holds a thing, as a share of its own, and at most, m."""
+_WIDE_M, _AT_RIM_M, _BEHIND_M = 0.2, 0.03, 0.02
+"""Size from which on a board would hide the hand, which therefore holds it at its lower rim; height
+of the palm above that, and place of the board behind it, m."""
 
 
 class Hold(NamedTuple):
@@ -105,6 +112,9 @@ def hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
     """
     if subject.noun.name in HAND_NOUNS:
         return _in_palm(subject, target)
+    if subject.noun.name in nouns_with("carries below"):
+        hung = shift(0.0, 0.0, target.foot_m - target.model.height)
+        return subject, carried(target, held_at(subject, "hands", hung), subject)
     if not is_person(subject):
         offset = _in_mouth(target)
         held = held_at(subject, "mouth", offset, swing=_swing(target, offset))
@@ -150,6 +160,9 @@ def _in_palm(hand: Actor, thing: Actor) -> tuple[Actor, Actor]:
     """A thing before the palm of a hand, by its foot or handle; the hand turns with it."""
     below = min(_IN_PALM * thing.model.height, _HAND_M)
     depth = 0.5 * thing.model.length if thing.model.length < _HAND_M else 0.0
+    is_thin = thing.model.length < _HAND_M or thing.noun.name in nouns_with("upright")
+    if is_thin and min(thing.model.width, thing.model.height) > _WIDE_M:
+        below, depth = _AT_RIM_M, -_BEHIND_M
     offset = along_tool(thing) if is_tool(thing) else shift(depth, 0.0, thing.foot_m - below)
     swing, free = _swing(thing, offset), hand
     if swing is not None:
@@ -200,7 +213,7 @@ def place_in_hold(style: str, holder: Actor, thing: Actor) -> Hold:
     """Place of a thing that is held in a style, and places of the hands."""
     model, size = thing.model, size_of(holder.model)
     if style == "in both arms" and holder.track.at(0.0).activity in _HANDS_FREE:
-        return _in_both_arms(thing, size)
+        return (_cradled if is_person(thing) else _in_both_arms)(thing, size)
     hand = _STYLES.get(style)
     grips: Grips = () if hand is None else (("right hand", scaled(hand, size)),)
     if style == "held as a tool":
@@ -227,6 +240,15 @@ def _in_both_arms(thing: Actor, size: float) -> Hold:
     offset = np.column_stack([turn, [along, 0.0, bottom + thing.foot_m]])
     grips = _both_hands(min(along, 0.42 * size), min(0.5 * wide, 0.34 * size), z)
     return Hold("ground", offset, grips=grips)
+
+
+def _cradled(thing: Actor, size: float) -> Hold:
+    """A baby or a child across both arms, face up."""
+    middle, deep = 0.5 * thing.model.height - thing.foot_m, _BACK_M * size_of(thing.model)
+    x, z = 0.18 * size + deep, _ARMS * size
+    turn = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]])
+    offset = np.column_stack([turn, [x, -middle, z + deep]])
+    return Hold("ground", offset, False, _both_hands(x + 0.06 * size, 0.14 * size, z))
 
 
 def _both_hands(x: float, y: float, z: float) -> Grips:

@@ -11,7 +11,13 @@ from functools import partial
 import numpy as np
 
 from texvent_scenes.description import STANDING, IndexedRelation, SceneDescription
-from texvent_scenes.models.activities import ACTIVITIES, AIMED, HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.activities import (
+    ACTIVITIES,
+    AIMED,
+    HAND_NOUNS,
+    ON_TOP,
+    PERSON_NOUNS,
+)
 from texvent_scenes.models.anchors import takes_in
 from texvent_scenes.models.people.outfit import can_be_worn, list_props
 from texvent_scenes.models.protocol import Noun, Pose
@@ -66,6 +72,7 @@ def settle_motions(
         for targets in ([(t,) for t in one.targets] if one.kind == "wear" else [one.targets])
     ]
     relations += _implied_acts(objects, relations)
+    relations = [_on_top(one, objects, relations) for one in relations]
     for relation in relations:
         if relation.kind in ACTS and relation.targets:
             _settle_act(relation, objects, relations, nouns, seed)
@@ -89,6 +96,19 @@ def settle_motions(
         for number in pair if said else ():
             objects[number] = _directed(objects[number], said[0])
     return replace(description, objects=tuple(objects), relations=tuple(relations))
+
+
+def _on_top(
+    act: IndexedRelation, objects: Sequence[SceneObject], relations: Sequence[IndexedRelation]
+) -> IndexedRelation:
+    """An act of a person on a thing as that on a bench, where what is in its place stands by."""
+    at_bench = ON_TOP.get(act.kind, "")
+    if not at_bench or objects[act.subject].noun not in PERSON_NOUNS:
+        return act
+    nouns = {noun for prop in list_props(at_bench) for noun in prop.nouns}
+    is_there = any(objects[n].noun in nouns for one in relations for n in one.targets
+                   if one.subject == act.subject and one.kind == "beside")  # fmt: skip
+    return replace(act, kind=at_bench) if is_there else act
 
 
 def _settle_act(
@@ -283,6 +303,7 @@ def perform_acts(
         the rider of a bicycle, and what that rider has; a piano that comes with an activity.
     """
     cast = dict(enumerate(actors))
+    placed = dict(cast)
     _turn_to_goals(cast, description.relations)
     _turn_queues(cast, description)
     acts = [one for one in description.relations if one.kind in ACTS and one.targets]
@@ -294,6 +315,7 @@ def perform_acts(
             _send_to(cast, sent[each.subject], description.objects, each.targets[0], duration_s)
     _bear_down(cast, description.relations)
     _swing_riders(cast, description.relations)
+    _carry_along(cast, placed, description.relations)
     for person in list(cast.values()):
         nouns = {noun for prop in person.props if prop.anchor == "ground" or prop.is_own
                  for noun in prop.nouns}  # fmt: skip
@@ -365,6 +387,26 @@ def _bear_down(cast: dict[int, Actor], relations: Sequence[IndexedRelation]) -> 
                 path = attached(below.track, np.linalg.solve(frame, own)[:3])
                 cast[number] = replace(one, track=path, is_mover=True)
         down += [one for one in on if one not in down]
+
+
+def _carry_along(
+    cast: dict[int, Actor], placed: Mapping[int, Actor], relations: Sequence[IndexedRelation]
+) -> None:
+    """Let what stands on a thing, or lies in it, go with it where an act moves that."""
+    for each in (one for one in relations if one.kind in ("on", "in")):
+        below = [n for n, one in cast.items() if one.object_index in each.targets]
+        for number, one in list(cast.items()) if below else ():
+            start = placed[number].track.at(0.0).to_world()
+            under = min(below, key=lambda n: float(
+                np.linalg.norm(placed[n].track.at(0.0).to_world()[:, 3] - start[:, 3])))  # fmt: skip
+            is_left = one.track is placed[number].track
+            if one.object_index != each.subject or not is_left:
+                continue
+            if cast[under].track is not placed[under].track:
+                frame, own = (np.vstack([at, [0.0, 0.0, 0.0, 1.0]])
+                              for at in (placed[under].track.at(0.0).to_world(), start))  # fmt: skip
+                path = attached(cast[under].track, np.linalg.solve(frame, own)[:3])
+                cast[number] = replace(one, track=path, is_mover=True)
 
 
 def _swing_riders(cast: dict[int, Actor], relations: Sequence[IndexedRelation]) -> None:

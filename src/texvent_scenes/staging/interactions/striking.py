@@ -15,7 +15,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from texvent_scenes.models.activities import ACTIVITIES
+from texvent_scenes.models.activities import ACTIVITIES, ON_TOP
 from texvent_scenes.models.shapes import bounds, moved, point, shift
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor, size_of
@@ -60,8 +60,12 @@ class Impact(NamedTuple):
     """Whether the thing comes flying, and stays at that place from then on."""
     carried: Literal["before", "after"] | None = None
     """When the thing is at that place, if it stands on the ground else."""
+    top_m: float = 0.0
+    """Height of what it stands on then, for a body of the usual size."""
 
 
+_BENCH_M = 0.846
+"""Height of a bench before a body of the usual size."""
 IMPACTS: Mapping[str, Impact] = MappingProxyType(
     {
         "kick": Impact(0.45, "kick", "right foot", loft=0.45),
@@ -69,6 +73,10 @@ IMPACTS: Mapping[str, Impact] = MappingProxyType(
         "roll": Impact(0.35, "underarm", "right hand", is_held=True),
         "lift": Impact(0.4, "pick up", "hands", carried="after"),
         "set down": Impact(0.5, "put down", "hands", carried="before"),
+        ON_TOP["lift"]: Impact(0.4, ON_TOP["lift"], "hands", carried="after", top_m=_BENCH_M),
+        ON_TOP["set down"]: Impact(
+            0.5, ON_TOP["set down"], "hands", carried="before", top_m=_BENCH_M
+        ),
         "drop": Impact(0.3, "let go", "hands", is_held=True, is_flung=False),
         "catch": Impact(0.45, "catch", "hands", is_caught=True),
         "hit": Impact(0.45, by="right hand", loft=0.22, tumble_rad_s=9.0),
@@ -117,8 +125,10 @@ def strike(
         return _catch(act, subject, thing, contact_s)
     is_limbed = is_person(subject) or act.is_held
     rest = steady(home.position, home.yaw, activity=act.activity if is_limbed else "stand")
+    props = subject.props if act.top_m else ()
     subject = moving(subject, replace(rest, contact_s=contact_s))
     if act.carried is not None:
+        subject = replace(subject, props=props or subject.props)
         return subject, moving(thing, _carry(act, subject, thing, contact_s))
     if not act.is_held:
         tip = subject.anchor(act.by, contact_s)[:, 3]
@@ -195,7 +205,8 @@ def _carry(act: Impact, subject: Actor, thing: Actor, contact_s: float) -> Track
     """At rest below the place of the body that has it before or after, and there as it was."""
     axes, home = partial(subject.anchor, act.by), subject.track.at(0.0)
     x, y, _ = point(axes(contact_s)[:, 3])
-    rest = steady((x, y, home.position[2] + thing.foot_m), home.yaw, activity="stand")
+    low_m = home.position[2] + act.top_m * size_of(subject.model)
+    rest = steady((x, y, low_m + thing.foot_m), home.yaw, activity="stand")
     world = (axes(contact_s), rest.at(0.0).to_world())
     square = (np.vstack([one, [0.0, 0.0, 0.0, 1.0]]) for one in world)
     anchor = Attachment(subject.track, axes, np.linalg.solve(*square)[:3])

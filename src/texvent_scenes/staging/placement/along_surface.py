@@ -14,7 +14,7 @@ from texvent_scenes.staging.actors import size_of
 from texvent_scenes.staging.placement.object_groups import ObjectGroup
 from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, Key, flight_s
 from texvent_scenes.staging.tracks.motion_plan import MotionPlan
-from texvent_scenes.staging.tracks.phases import activity_of, usual_speed
+from texvent_scenes.staging.tracks.phases import PATH_KINDS, activity_of, usual_speed
 from texvent_scenes.staging.tracks.track import Track, centred
 
 _LEAST_HOP_M = 0.25
@@ -129,6 +129,8 @@ def leap_over(group: ObjectGroup, target: ObjectGroup) -> None:
     hop_m = target.top_m + max(0.2 * group.models[0].height, _LEAST_HOP_M)
     flown_s = min(flight_s(hop_m), 0.8 * group.plan.duration_s)
     kind = "run" if group.noun.motion == "walk" else group.noun.motion
+    said = [one.kind for one in group.scene_object.motions if one.kind in PATH_KINDS]
+    kind = said[0] if said else kind  # "skates and jumps over a bench"
     speed = max(2.0 * far / flown_s, min(usual_speed(group.noun, kind), _MOST_RUN_UP_M_S))
     run_s = 0.5 * (group.plan.duration_s - flown_s)
     run = Key(run_s, speed, ramp_s=0.0, activity=activity_of(kind))

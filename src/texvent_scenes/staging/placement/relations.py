@@ -29,6 +29,7 @@ from texvent_scenes.staging.placement.along_surface import (
     leap_up,
     stop_at_edge,
 )
+from texvent_scenes.staging.placement.approaches import lead_over
 from texvent_scenes.staging.placement.containers import (
     depth_in,
     go_inside,
@@ -133,7 +134,8 @@ def _place_around(
 
 def _place_above(group: ObjectGroup, targets: Sequence[ObjectGroup], height: float) -> Goal:
     target, own = targets[0], group.models[0].height
-    if group.plan.motion.kind == "jump":
+    kinds = [one.kind for one in group.scene_object.motions]
+    if "jump" in kinds and {*kinds} <= PATH_KINDS | {"jump", "stand", "sink", "fall"}:
         leap_over(group, target)
         return Goal(_on_ground(target, height), _FIXED)
     clear = target.top_m + 0.7 * own + _CLEAR_M + (0.5 * own if is_centred(group.noun) else 0.0)
@@ -288,15 +290,23 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
         carry_along(group, target, support)
     elif group.plan.is_path and not target.plan.motion.is_moving:
         stop_at_edge(group, target, support)
-    if is_person and kind in ("lie", "stand"):
+    _turn_along(group, target, support)
+    group.fit()
+    return target.to_world(*support.middle, support.height + group.origin_m)
+
+
+def _turn_along(group: ObjectGroup, target: ObjectGroup, support: Support) -> None:
+    """Turn who lies, stands or goes on something along it."""
+    kind, is_way = group.plan.motion.kind, target.noun.name in nouns_with("way")
+    if group.noun.name in PERSON_NOUNS and kind in ("lie", "stand"):
         body = target.models[0]
         is_across = kind == "lie" and body.width > body.length
         yaw = target.plan.yaw + 0.5 * math.pi * is_across
         group.plan = replace(group.plan, yaw=yaw, gesture=kind)
-    elif zone_of(group.noun) == "road" and target.noun.name in nouns_with("way"):
+    elif group.plan.is_path and target.noun.name in nouns_with("has approaches"):
+        lead_over(group, target, support)
+    elif zone_of(group.noun) == "road" and is_way:
         group.plan = replace(group.plan, yaw=target.plan.yaw)  # along a bridge, parked too
-    group.fit()
-    return target.to_world(*support.middle, support.height + group.origin_m)
 
 
 def _rest_on_face(
@@ -366,7 +376,8 @@ def _seat_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
 
 def rest_in(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
     """As `rest_on`, in a container so that its top looks out, and unseen in what is closed."""
-    if target.noun.name in nouns_with("closed") | nouns_with("passage"):
+    open_below = nouns_with("passage") | nouns_with("stood in")
+    if target.noun.name in nouns_with("closed") | open_below:
         if target.plan.motion.is_moving:
             group.carrier = target
         low = 0.05 * target.models[0].height if target.noun.name in nouns_with("closed") else 0.0

@@ -63,13 +63,14 @@ class Sizes:
         )
 
     def _fit_on(self, index: int) -> tuple[float, list[str]]:
-        """Share at which several small things find room on what they are put on."""
+        """Share at which several things, or a solid of any size, find room on what they are put on."""
         said, objects = self._description.objects[index], self._description.objects
         noun = dressed(self._description, index, self._nouns)
         targets = [one.targets[0] for one in self._description.relations
                    if one.subject == index and one.kind == "on"]  # fmt: skip
         below = [self._nouns[objects[n].noun] for n in targets if n != index]
-        if said.count < 2 or noun.habitat != "fixed" or not below or below[0].habitat != "fixed":
+        is_lone = said.count < 2 and noun.name not in nouns_with("of any size")
+        if is_lone or noun.habitat != "fixed" or not below or below[0].habitat != "fixed":
             return 1.0, []
         own = self._build(index)
         top = below[0].build(colour=None, scale=objects[targets[0]].size, seed=0)

@@ -299,6 +299,8 @@ _WATER_COLOUR: Colour = (0.05, 0.28, 0.42)
 _DARKER, _LEAST_CONTRAST = 0.1, 1.0
 """Dark backdrop as a multiple of the usual one; difference in log brightness from the objects that
 keeps the usual one: edges cross a threshold of 0.25 four times."""
+_STORM_CLOUDS, _STARLESS = 0.95, 0.5
+"""Cloud cover of a thunderstorm; that from which on no stars are seen."""
 _LUMA = np.array([0.2126, 0.7152, 0.0722])
 """Luma weights of linear RGB, Rec. 709."""
 _UNDERWATER_SIGHT_M = 16.0
@@ -400,7 +402,8 @@ def build_environment(
         room_half_size=room_m if place.is_room else NO_ROOM_M,
         corridor_half_width=corridor_m,
         ground_surface=Texture.SNOW if is_white else place.surface,
-        has_stars=not place.is_backdrop and said.weather is None,
+        has_stars=not (place.is_backdrop or said.weather or _is_storm(description))
+        and (said.clouds or 0.0) < _STARLESS,
         wall_surface=place.walls,
         wall_colour=place.wall_colour,
         road_crossings=np.array(road.crossings, dtype=np.float64).reshape(-1, 3),
@@ -431,7 +434,13 @@ def _cloud_share(description: SceneDescription, place: PlaceModel, lighting: Lig
     usual = 0.0 if place.is_backdrop and said.sky is None else lighting.clouds
     least = [usual if said.clouds is None else said.clouds]
     least += [0.8] * (said.weather in ("rain", "snow"))
+    least += [_STORM_CLOUDS] * _is_storm(description)
     return max(least)
+
+
+def _is_storm(description: SceneDescription) -> bool:
+    """Whether something of the scene comes out of clouds, as lightning does."""
+    return any(one.noun in nouns_with("out of clouds") for one in description.objects)
 
 
 def _ground_colours(place: PlaceModel, said: Place) -> tuple[Colour, Colour]:

@@ -129,7 +129,8 @@ def _go_straight(plan: MotionPlan, model: Model, home: Vector, phase: float) -> 
     kind, half_m = plan.motion.kind, 0.5 * plan.duration_s * plan.speed_m_s
     risen_m = 0.0 if plan.is_facing else plan.climb * half_m  # a shape goes up from the ground
     start = ahead(home, plan.yaw, -half_m, home[2] - risen_m)
-    line = steady(start, plan.yaw, plan.speed_m_s, climb=plan.climb, activity=activity_of(kind))
+    doing = f"{activity_of(kind)} and {plan.act}" if plan.act else activity_of(kind)
+    line = steady(start, plan.yaw, plan.speed_m_s, climb=plan.climb, activity=doing)
     waves = oscillations(plan.motion, model, phase)
     return replace(line, terms=waves, radius_m=plan.radius_m, is_facing=plan.is_facing)
 

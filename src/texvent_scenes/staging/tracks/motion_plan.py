@@ -24,6 +24,7 @@ from texvent_scenes.staging.tracks.phases import (
     GOING,
     PATH_KINDS,
     YAWS,
+    done_on_the_way,
     needs_steering,
     usual_speed,
 )
@@ -54,6 +55,8 @@ class MotionPlan:
     """Its path about (0, 0), where it does more than one simple movement."""
     gesture: str | None = None
     """Activity of a person or a hand in place: a name of `models.activities`."""
+    act: str = ""
+    """Activity of the arms all along its way."""
     radius_m: float = 0.0
     """Rolling radius; 0 = it goes on wheels or feet."""
     spin_axis: str = "yaw"
@@ -110,7 +113,8 @@ def plan_motion(
         start_m: height above the ground at time 0, if it is said.
         heading_deg: heading at time 0, if it is said, degrees.
     """
-    motions = [_as_it_does(noun, one, start_m or 0.0) for one in motions]
+    act = done_on_the_way(motions, noun)
+    motions = [_as_it_does(noun, one, start_m or 0.0) for one in motions[: 1 if act else None]]
     is_tall = noun.habitat == "fixed" and model.height > _TALL * max(model.length, model.width)
     if is_tall and motions[0].kind == "fall":
         motions = [replace(one, kind="topple") if one.kind == "lie" else one for one in motions]
@@ -131,7 +135,7 @@ def plan_motion(
     plan = MotionPlan(
         motion, yaw, speed, duration_s, is_facing=is_facing, start_m=start_m,
         radius_m=_rolling_radius(model) if motion.kind == "roll" and not is_wheeled else 0.0,
-        spin_axis="roll" if is_facing else axle, is_laid=is_tall and motion.kind == "lie",
+        spin_axis="roll" if is_facing else axle, is_laid=is_tall and motion.kind == "lie", act=act,
     )  # fmt: skip
     if needs_steering(motions) or (motion.kind == "slide" and noun.motion == "drive"):
         path = build_path(

@@ -87,11 +87,18 @@ def rotation(yaw: float, pitch: float, roll: float) -> Float64Array:
     return np.asarray(about("z", yaw) @ about("y", pitch) @ about("x", roll))
 
 
+_VERTICAL = 1.0 - 1e-9
+"""Height of a unit axis that is vertical."""
+
+
 def state_of(to_world: Float64Array, pivot_m: float = 0.0) -> BodyState:
     """The state whose map from body to world this is ([3, 4], a rotation and an offset)."""
     pitch = math.asin(min(max(-float(to_world[2, 0]), -1.0), 1.0))
-    yaw = math.atan2(float(to_world[1, 0]), float(to_world[0, 0]))
-    roll = math.atan2(float(to_world[2, 1]), float(to_world[2, 2]))
+    if abs(float(to_world[2, 0])) < _VERTICAL:
+        yaw = math.atan2(float(to_world[1, 0]), float(to_world[0, 0]))
+        roll = math.atan2(float(to_world[2, 1]), float(to_world[2, 2]))
+    else:  # its x axis is vertical: yaw and roll turn about the same line
+        yaw, roll = math.atan2(-float(to_world[0, 1]), float(to_world[1, 1])), 0.0
     pivot = np.array([0.0, 0.0, pivot_m])
     place = point(to_world[:, 3] + to_world[:, :3] @ pivot - pivot)
     return BodyState(place, yaw, pitch, roll, activity="stand", pivot_m=pivot_m)
