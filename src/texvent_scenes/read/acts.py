@@ -11,6 +11,7 @@ from texvent_scenes.models.activities import (
     ANIMAL_ACTIVITIES,
     DONE_SEATED,
     HAND_NOUNS,
+    PERSON_NOUNS,
     ON_FOOT,
     TIMED,
     is_mutual,
@@ -287,7 +288,7 @@ def claim_act(draft: SceneDraft, act: VerbSense, verb: Token, index: int, object
         draft.claim(verb, "stop", "", [index])
     if act.who == "lamp" and draft.things[index]["noun"] not in word_set("things", "flames"):
         draft.claim(verb, "shine", "", [index])
-    if act.who in ("person", "hand", "animal", *draft.nouns) or act.kind == "lie":
+    if act.who in ("person", "hand", "animal", *PERSON_NOUNS) or act.kind == "lie":
         is_body = act.who != "plain" or draft.walks(index)
         draft.claim(verb, "activity" if is_body else "lie", act.kind, [index])
     elif verb.text in word_set("things", "hung"):
