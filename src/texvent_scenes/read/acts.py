@@ -8,6 +8,7 @@ from functools import cache
 from typing import Any
 
 from texvent_scenes.models.activities import (
+    ACTIVITIES,
     ANIMAL_ACTIVITIES,
     DONE_SEATED,
     HAND_NOUNS,
@@ -50,6 +51,8 @@ def perform(
         return None  # what it is done to is not known
     draft.show(verb)
     act = _stand_on(draft, act, verb, objects)
+    if act.kind == "rise" and all(draft.noun(one).habitat == "fixed" for one in subjects):
+        act = replace(act, kind="stand")  # "mountains rise in the distance"
     if act.aims:
         return _send(draft, act, verb, subjects, objects)
     if act.brings not in ("", EGO) and not objects:
@@ -137,6 +140,7 @@ def _choose_act(
     words = {draft.things[one].get("word", "") for one in subjects}
     if verb.text in _list_performing() and not done and words & _musicians():
         return None  # of an instrument that nobody plays here: no game
+    done |= _list_played(draft, subjects) if verb.text in _list_performing() else set()
     if verb.text in _list_performing():
         acts[:0] = [VerbSense("person", one) for one in done]
     acts.sort(key=lambda one: one.kind not in done)  # "swings at a ball": a golfer, a batter
@@ -257,6 +261,13 @@ def _list_tools(activity: str) -> set[str]:
     """Nouns that a person has in hand in an act."""
     props = (one for one in list_props(activity) if one.anchor.endswith("hand"))
     return {noun for prop in props for noun in prop.nouns}
+
+
+def _list_played(draft: SceneDraft, subjects: Indices) -> set[str]:
+    """Acts on instruments at which subjects are, or that they have: "sits at a piano and plays"."""
+    near = draft.names(draft.targets(subjects, ("at", "on", "beside", "hold", "with")))
+    plays = (one for one in ACTIVITIES if one.startswith("play "))
+    return {one for one in plays if any(near & {*prop.nouns} for prop in list_props(one))}
 
 
 @cache

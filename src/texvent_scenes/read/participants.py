@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from texvent_scenes.description import SEEN
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
-from texvent_scenes.models.tables import trait_values
+from texvent_scenes.models.tables import nouns_with, trait_values
 from texvent_scenes.read.acts import begin, perform
 from texvent_scenes.read.draft.abilities import Indices, is_of_people
 from texvent_scenes.read.draft.scene_draft import SceneDraft
@@ -18,7 +18,6 @@ from texvent_scenes.read.parsing.tokens import Token
 from texvent_scenes.read.prepositions import claim_mutual, find_mutual
 from texvent_scenes.read.things import name_group, pick_group
 from texvent_scenes.spec.data import PLACING, WAYS
-
 
 _OF_NOBODY = {("light", "kind"), ("place", "wave_height")}
 """Part and name of what clauses about light and waves say."""
@@ -113,6 +112,13 @@ def find_object(
     others = [one for one in dict.fromkeys((*draft.last.acted, *nearest, *about))
               if one not in subjects
               and (one in persons) == (word in ("him", "her"))]  # fmt: skip
+    small = nouns_with("in hand or on something")
+    is_taken = clause.verb is not None and any(
+        one.value.relation in word_set("things", "of_bodies") for one in clause.verb.all("verb")
+    )
+    lighter = [one for one in others if draft.things[one]["noun"] in small]
+    if is_taken and lighter:
+        return lighter[:1]  # "a cup on a desk, and lifts it"
     return sorted(others, key=draft.can_go, reverse=True)[:1]  # no tree is followed
 
 

@@ -26,13 +26,15 @@ _ROUND = frozenset({"on", "past", "at", "in", "through", "into"})
 _SMALL = nouns_with("in hand or on something")
 _BED = nouns_with("seat") | word_set("things", "tables")
 _WORKED_AT = nouns_with("worked at")
-_GROUND = nouns_with("way") | {"rug"}
+_GROUND = nouns_with("way") | nouns_with("put down on")
 _HANDED = {"into": "in", "in": "in", "on": "on", "to": "on", "above": "on"}
 
 
 def relate_one(draft: SceneDraft, kind: str, index: int, targets: Indices) -> bool:
     """Relate a thing to others as far as scenes can; whether it is so."""
     thing, noun = draft.things[index], draft.things[targets[0]]["noun"]
+    if kind == "with" and _has_other_tool(thing, noun):
+        return False  # "waters flowers with a hose", and has a can
     if kind == "with" and len(parts := _part_worn(draft, targets)) > 1:
         return all([relate_one(draft, kind, index, each) for each in parts])
     if kind == "with" and thing["noun"] in trait_values("circled on"):
@@ -181,10 +183,21 @@ def _bears_nobody(draft: SceneDraft, index: int, noun: str, targets: Indices) ->
     return is_worked_at or noun in word_set("things", "peaks")
 
 
+def _has_other_tool(thing: Mapping[str, Any], noun: str) -> bool:
+    """Whether an act has another tool in the right hand than the one that is said."""
+    props = [prop for one in thing["motions"] for prop in list_props(one["kind"])]
+    is_tool = noun in _SMALL | nouns_with("held as a tool") | nouns_with(
+        "used like a tool"
+    ) and not can_be_worn(noun)
+    has_tool = any(prop.anchor == "right hand" for prop in props)
+    return is_tool and has_tool and not any(noun in prop.nouns for prop in props)
+
+
 def _has_bench(thing: Mapping[str, Any]) -> bool:
     """Whether an act comes with a bench of its own, which stands on no bed."""
-    props = [prop for one in thing["motions"] for prop in list_props(one["kind"])]
-    return any(prop.anchor == "ground" and prop.name.startswith("bench") for prop in props)
+    acts = [one["kind"] for one in thing["motions"]]
+    acts = [one for one in acts if one in ACTIVITIES and ACTIVITIES[one].is_at_bench]
+    return any(prop.anchor == "ground" for one in acts for prop in list_props(one))
 
 
 def _works(thing: Mapping[str, Any]) -> bool:
