@@ -12,8 +12,8 @@ from texvent_scenes.models.activities import (
     ANIMAL_ACTIVITIES,
     DONE_SEATED,
     HAND_NOUNS,
-    PERSON_NOUNS,
     ON_FOOT,
+    PERSON_NOUNS,
     TIMED,
     is_mutual,
 )
