@@ -13,6 +13,7 @@ from texvent_scenes.models.activities import (
     DONE_SEATED,
     HAND_NOUNS,
     ON_FOOT,
+    PERSON_NOUNS,
     TIMED,
     is_mutual,
 )
@@ -298,7 +299,7 @@ def claim_act(draft: SceneDraft, act: VerbSense, verb: Token, index: int, object
         draft.claim(verb, "stop", "", [index])
     if act.who == "lamp" and draft.things[index]["noun"] not in word_set("things", "flames"):
         draft.claim(verb, "shine", "", [index])
-    if act.who in ("person", "hand", "animal", *draft.nouns) or act.kind == "lie":
+    if act.who in ("person", "hand", "animal", *PERSON_NOUNS) or act.kind == "lie":
         is_body = act.who != "plain" or draft.walks(index)
         draft.claim(verb, "activity" if is_body else "lie", act.kind, [index])
     elif verb.text in word_set("things", "hung"):
