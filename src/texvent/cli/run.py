@@ -71,9 +71,9 @@ def estimate_run(simulation: Simulation) -> str:
         begun = begun or time.perf_counter()
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # said the first time
-            events, tried, part_s = _try(trial)
+            events, part_pairs, part_s = _try(trial)
         counted += events[1:] if start and len(events) > 1 else events
-        pairs, seconds = pairs + tried, seconds + part_s
+        pairs, seconds = pairs + part_pairs, seconds + part_s
         if time.perf_counter() - begun > MOST_SECONDS:
             break
     if not counted:

@@ -50,6 +50,8 @@ def perform(
         return None  # what it is done to is not known
     draft.show(verb)
     act = _stand_on(draft, act, verb, objects)
+    if act.kind == "rise" and all(draft.noun(one).habitat == "fixed" for one in subjects):
+        act = replace(act, kind="stand")  # "mountains rise in the distance"
     if act.aims:
         return _send(draft, act, verb, subjects, objects)
     if act.brings not in ("", EGO) and not objects:

@@ -233,12 +233,11 @@ def _use(thing: Mapping[str, Any], noun: str) -> str:
 def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> str:
     """The relation that is meant, which depends on what stands in it; "" = none."""
     thing, noun = draft.things[index], draft.things[other]["noun"]
+    is_among = draft.things[other]["count"] > 1 and _are_going(draft, index, other)
+    kind = "between" if kind == "in" and is_among else kind  # "in a traffic jam", "in a crowd"
     kind = _see_inside(kind, draft.nouns[thing["noun"]].habitat, noun)
     if kind in WAYS:
         return _choose_way(draft, kind, index, other)
-    goes_among = draft.things[other]["count"] > 1 and draft.can_go(other)
-    if kind == "in" and goes_among and draft.can_go(index):
-        return "between"  # "in a traffic jam", "in a crowd"
     ends = [one.get("end_pace") for one in thing["motions"]][-1:]
     if kind == "front" and ends == [0.0]:
         return "to"  # "stops in front of a dog", which is in its way
@@ -261,6 +260,11 @@ def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> st
     if kind == "behind" and draft.goes_like(index, other):  # who brakes keeps no pace
         return "" if "end_pace" in thing["motions"][0] else "follow"
     return kind
+
+
+def _are_going(draft: SceneDraft, *indices: int) -> bool:
+    """Whether all go by themselves."""
+    return all(map(draft.can_go, indices))
 
 
 def _choose_way(draft: SceneDraft, kind: str, index: int, other: int) -> str:

@@ -85,6 +85,11 @@ class Abilities:
         """Whether an object is said to go somewhere, by itself or as what it rides."""
         return bool(self.does([index]) & {*MEANS, "move", "roll", "slide", "crawl"})
 
+    def is_lamp(self, index: int) -> bool:
+        """Whether an object shines, as it is said to do."""
+        thing = self.things[index]
+        return thing["noun"] in LAMPS and bool({"blink_hz", "switch_s"} & thing.keys())
+
     def rides(self, index: int) -> bool:
         """Whether an object is on what is ridden: "two men on motorcycles"."""
         ridden = self.names(self.targets([index], ["ride", "on"]))

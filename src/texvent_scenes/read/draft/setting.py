@@ -91,7 +91,7 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
         draft.show(*(one for one in said if head.at - one.at <= len(group.modifiers) + 1))
     draft.show_inherent(group.unknown, name)
     for token in group.unknown:
-        _fill_place(draft, token, name)
+        _fill_place(draft, token, (head.text, name))
     set_scene(draft, head)
     is_said = bool(group.modifiers) and relation not in ("in", "on", "through")
     is_bare = name == "sky" and not relation and "name" not in place
@@ -133,10 +133,11 @@ def leave_sky(draft: SceneDraft) -> bool:
     return on_ground
 
 
-def _fill_place(draft: SceneDraft, token: Token, place: str) -> None:
+def _fill_place(draft: SceneDraft, token: Token, names: Sequence[str]) -> None:
     """Add those of whom a place is full: "a busy street"."""
     full = word_table("brings")
-    brought = full.get(f"{token.text} {place}") or full.get(token.text, {})
+    said = (full.get(f"{token.text} {one}") for one in names)
+    brought = next(filter(None, said), full.get(token.text, {}))
     for noun, count in brought.items():
         draft.show(token)
         draft.claim(token, SEEN, "", [draft.add(noun, count)])
