@@ -63,8 +63,9 @@ def perform(
     if act.is_near and not (is_change and draft.things[subjects[0]]["motions"]):
         draft.mark(verb, act.kind or act.relation or "")
     for index in subjects:
-        _do(draft, act, verb, index)
-        claim_act(draft, act, verb, index, objects)
+        own = _as_named(draft, act, verb, index)
+        _do(draft, own, verb, index)
+        claim_act(draft, own, verb, index, objects)
     for index in objects:
         add_motion(draft.things[index], VerbSense(kind=act.object))
         _switch(draft, act.object, index)
@@ -95,6 +96,12 @@ def _send(
         is_scored = verb.text.split()[0] in word_set("things", "scoring")
         draft.claim(verb, "taken in", "", sent if is_scored else [], goals)
     return list(subjects)
+
+
+def _as_named(draft: SceneDraft, act: VerbSense, verb: Token, index: int) -> VerbSense:
+    """An act as one of several does it who are named by theirs: "a drummer and a pianist play"."""
+    deed = draft.things[index].get("deed", "") if verb.text in _list_performing() else ""
+    return replace(act, kind=deed) if deed else act
 
 
 def _stand_on(draft: SceneDraft, act: VerbSense, verb: Token, objects: Indices) -> VerbSense:
