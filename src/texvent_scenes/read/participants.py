@@ -19,7 +19,6 @@ from texvent_scenes.read.prepositions import claim_mutual, find_mutual
 from texvent_scenes.read.things import name_group, pick_group
 from texvent_scenes.spec.data import PLACING, WAYS
 
-
 _OF_NOBODY = {("light", "kind"), ("place", "wave_height")}
 """Part and name of what clauses about light and waves say."""
 
