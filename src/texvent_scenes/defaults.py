@@ -191,7 +191,8 @@ def _set_far(description: SceneDescription) -> SceneDescription:
     related |= {n for n in (description.index(description.camera.target),) if n is not None}
     if all(one.noun in towering for one in objects):
         return description
-    far = (n for n, one in enumerate(objects) if one.noun in towering and one.placement is None)
+    far = (n for n, one in enumerate(objects)
+           if one.noun in towering and one.placement is one.position_m is None)  # fmt: skip
     return _change(description, {n: replace(objects[n], placement="far") for n in {*far} - related})
 
 
@@ -258,7 +259,7 @@ def _at_rate(motion: Motion, noun: Noun) -> Motion:
     turns = motion.kind == "spin" or (motion.kind == "rotate" and noun.name not in HAND_NOUNS)
     if not turns or motion.rate_hz is None:
         return motion
-    return replace(motion, kind="spin", pace=motion.rate_hz / SPIN_RATE_HZ, rate_hz=None)
+    return replace(motion, kind="spin", pace=motion.rate_hz / SPIN_RATE_HZ)
 
 
 def _is_work(motion: Motion | None, noun: Noun) -> bool:
@@ -266,7 +267,9 @@ def _is_work(motion: Motion | None, noun: Noun) -> bool:
     if motion is None or motion.kind in ("stand", "swing", "spin", "turn", "work", "sway"):
         return True
     is_flat = noun.name in nouns_with("flat pattern")
-    return motion.kind == "move" and (motion.direction is None or is_flat)
+    turns = trait_value("turns per second", noun.name) is not None
+    swings = motion.direction == "to and fro" and not (turns or noun.speed_m_s)
+    return motion.kind == "move" and (motion.direction is None or is_flat or swings)
 
 
 def _work(motion: Motion | None, noun: Noun) -> Motion:
@@ -277,17 +280,17 @@ def _work(motion: Motion | None, noun: Noun) -> Motion:
         return Motion("work")
     kept = motion.direction in ("clockwise", "counter-clockwise", "left", "right")
     direction = motion.direction if kept else None
-    pace, own_hz = motion.pace, trait_value("turns per second", noun.name)
+    pace, said, own_hz = motion.pace, {}, trait_value("turns per second", noun.name)
     belt_m_s = trait_value("belt speed", noun.name)
     if direction == "left" and belt_m_s is not None and noun.name in nouns_with("flat pattern"):
         direction = "clockwise"  # backwards: its belt runs to the right of who sees its front
     if motion.rate_hz is not None and own_hz is not None:
-        pace = motion.rate_hz / own_hz
+        pace, said = motion.rate_hz / own_hz, {"rate_hz": motion.rate_hz}
     elif motion.speed_m_s is not None and belt_m_s is not None:
-        pace = motion.speed_m_s / belt_m_s
+        pace, said = motion.speed_m_s / belt_m_s, {"speed_m_s": motion.speed_m_s}
     elif motion.kind in ("spin", "turn", "swing"):  # "rotates" is no slower than usual
         pace = max(pace, 1.0)
-    return Motion("work", direction, pace, end_pace=motion.end_pace)
+    return Motion("work", direction, pace, end_pace=motion.end_pace, **said)
 
 
 def _rest(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:

@@ -95,6 +95,13 @@ def to_description(scene: Scene) -> SceneDescription:
     return SceneDescription(**{**vars(scene), "objects": objects}, relations=relations)
 
 
+def said(motion: Motion) -> Motion:
+    """A motion as a file has it: without the pace that its rate or its belt's speed makes."""
+    is_made = motion.kind == "spin" and motion.rate_hz is not None
+    is_made |= motion.kind == "work" and (motion.rate_hz, motion.speed_m_s) != (None, None)
+    return replace(motion, pace=Motion.pace) if is_made else motion
+
+
 def report_of(description: SceneDescription) -> PromptReport:
     """Report of a scene and of the words of its prompt, before it is staged.
 
@@ -106,10 +113,12 @@ def report_of(description: SceneDescription) -> PromptReport:
         >>> report_of(SceneDescription(objects=(car,))).lines()
         ['objects: noun = "car", motions = [{ kind = "drive", direction = "left" }]']
     """
-    objects = tuple(replace(one, id="" if one.id == one.noun else one.id)
-                    for one in description.objects)  # fmt: skip
-    said = {one.name: getattr(description, one.name) for one in fields(Scene)}
-    data = scene_to_data(Scene(**{**said, "objects": objects, "prompt": ""}))
+    objects = tuple(
+        replace(one, id="" if one.id == one.noun else one.id, motions=tuple(map(said, one.motions)))
+        for one in description.objects
+    )
+    values = {one.name: getattr(description, one.name) for one in fields(Scene)}
+    data = scene_to_data(Scene(**{**values, "objects": objects, "prompt": ""}))
     parts = [(name, part if isinstance(part, list) else [part]) for name, part in data.items()]
     lines = (f"{name}: {inline_text(one)[2:-2] if isinstance(one, dict) else one}"
              for name, part in parts for one in part)  # fmt: skip

@@ -101,7 +101,9 @@ def _without_idle(reading: Reading, nouns: Mapping[str, Noun]) -> tuple[Reading,
     claims: list[Claim] = []
     lost = dict[str, str]()
     for _ in range(_MOST_PASSES):
-        idle = _list_idle(scene, nouns)
+        # "rain on a wet road" is wet; of an object, what is so anyway must be seen.
+        idle = [one for one in _list_idle(scene, nouns)
+                if not (one.is_usual and one.path.startswith("place"))]  # fmt: skip
         if not idle:
             break
         scene_before = scene
@@ -212,7 +214,8 @@ def check_words(scene: Scene, assets: str | Path | None = None) -> Scene:
 
 def _refuse_idle(scene: Scene, nouns: Mapping[str, Noun]) -> Scene:
     for idle in _list_idle(scene, nouns):
-        raise ConfigError(f"{idle.path} has no effect: {idle.why}")
+        if not idle.is_usual:
+            raise ConfigError(f"{idle.path} has no effect: {idle.why}")
     return scene
 
 

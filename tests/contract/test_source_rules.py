@@ -6,7 +6,8 @@ Nowhere is a number that may be None taken for "not given" because it is 0.
 import ast
 import re
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from itertools import chain
 from pathlib import Path
 
 import pytest
@@ -33,37 +34,44 @@ FUNCTIONS = ast.FunctionDef | ast.AsyncFunctionDef
 
 def is_number_or_none(annotation: ast.expr | None) -> bool:
     """Whether an annotation allows a number, None and nothing else."""
-    text = ast.unparse(annotation).strip("'\"") if annotation else ""
+    if not isinstance(annotation, ast.BinOp | ast.Constant):  # such as a name alone
+        return False
+    text = ast.unparse(annotation).strip("'\"")
     parts = {one.strip() for one in text.split("|")}
     return "None" in parts and len(parts) > 1 and parts <= NUMBERS | {"None"}
 
 
-def asked(tree: ast.AST) -> Iterator[ast.expr]:
+def asked(nodes: Iterable[ast.AST]) -> Iterator[ast.expr]:
     """Expressions whose truth decides."""
-    for one in ast.walk(tree):
+    for one in nodes:
         if isinstance(one, ast.If | ast.While | ast.IfExp | ast.Assert):
             yield from one.test.values if isinstance(one.test, ast.BoolOp) else [one.test]
-        elif isinstance(one, ast.BoolOp) and ast.unparse(one.values[-1]) not in ("0", "0.0"):
+        elif isinstance(one, ast.BoolOp) and getattr(one.values[-1], "value", 1) != 0:
             yield from one.values[:-1]
         elif isinstance(one, ast.UnaryOp) and isinstance(one.op, ast.Not):
             yield one.operand
         elif isinstance(one, ast.comprehension):
             yield from one.ifs
-        elif isinstance(one, ast.Call) and ast.unparse(one.func) in ("bool", "any", "all"):
+        elif isinstance(one, ast.Call) and getattr(one.func, "id", "") in ("bool", "any", "all"):
             yield from one.args
 
 
+def nodes_of(text: str) -> list[ast.AST]:
+    return [*ast.walk(ast.parse(text))]
+
+
 @pytest.fixture(scope="module")
-def trees() -> dict[Path, ast.Module]:
+def sources() -> dict[Path, list[ast.AST]]:
+    """Nodes of every file."""
     places = ROOT / "src", ROOT / "lab" / "src"
     files = [one for place in places for one in sorted(place.rglob("*.py"))]
-    return {one: ast.parse(one.read_text(encoding="utf-8")) for one in files}
+    return {one: nodes_of(one.read_text(encoding="utf-8")) for one in files}
 
 
-def numbers_by_name(of: dict[Path, ast.Module]) -> set[str]:
+def numbers_by_name(of: dict[Path, list[ast.AST]]) -> set[str]:
     """Names of fields and functions that are, or give, such a number wherever they are."""
     kinds = defaultdict(set)
-    for one in (one for tree in of.values() for one in ast.walk(tree)):
+    for one in chain.from_iterable(of.values()):
         if isinstance(one, FUNCTIONS):
             kinds[one.name].add(is_number_or_none(one.returns))
         for field in one.body if isinstance(one, ast.ClassDef) else ():
@@ -79,31 +87,32 @@ def name_of(value: ast.expr) -> str:
     return getattr(value, "attr", getattr(value, "id", ""))
 
 
-def zeros_taken_for_none(tree: ast.Module, fields: set[str]) -> Iterator[tuple[str, int]]:
+def zeros_taken_for_none(nodes: list[ast.AST], fields: set[str]) -> Iterator[tuple[str, int]]:
     """Names of such numbers whose truth is asked, and lines."""
-    given_fields = fields - {"get"}
-    for one in asked(tree):
+    kept = [one for one in nodes if isinstance(one, ast.Assign)]
+    kept = [one for one in kept if name_of(one.value) in fields - {"get"}]
+    for one in asked(nodes):
         is_named = not isinstance(one, ast.Name) or isinstance(one, ast.NamedExpr)
         if is_named and name_of(one) in fields:
             yield name_of(one), one.lineno
-    for function in (one for one in ast.walk(tree) if isinstance(one, FUNCTIONS)):
+    for function in (one for one in nodes if isinstance(one, FUNCTIONS)):
         given = (*function.args.posonlyargs, *function.args.args, *function.args.kwonlyargs)
         names = {one.arg for one in given if is_number_or_none(one.annotation)}
-        for one in ast.walk(function):
-            if isinstance(one, ast.Assign) and name_of(one.value) in given_fields:
+        for one in kept:
+            if function.lineno <= one.lineno <= (function.end_lineno or 0):
                 names |= {target.id for target in one.targets if isinstance(target, ast.Name)}
-        for one in asked(function) if names else ():
+        for one in asked(ast.walk(function)) if names else ():
             if isinstance(one, ast.Name) and one.id in names:
                 yield one.id, one.lineno
 
 
-def test_no_number_that_may_be_none_is_asked_for_its_truth(trees):
-    fields = numbers_by_name(trees)
+def test_no_number_that_may_be_none_is_asked_for_its_truth(sources):
+    fields = numbers_by_name(sources)
     assert len(fields) > 50
     found = [
         f"{path.relative_to(ROOT)}:{line} {name}"
-        for path, tree in trees.items()
-        for name, line in zeros_taken_for_none(tree, fields)
+        for path, nodes in sources.items()
+        for name, line in zeros_taken_for_none(nodes, fields)
         if name not in WITHOUT_ZERO.get(path.name, "").split()
     ]
     assert not found, "compare with None:\n" + "\n".join(found)
@@ -117,14 +126,14 @@ def test_zeros_are_found_where_they_decide():
         "m = a.seed; b = m or 1": True, "m = k; b = m or 1": False,
         "if n is None and k: pass": False, "if n is not None or a.seed == 0: pass": False,
     }.items():  # fmt: skip
-        tree = ast.parse(f"{text}    {line}\n")
-        assert bool([*zeros_taken_for_none(tree, {"seed"})]) is is_found, line
+        nodes = nodes_of(f"{text}    {line}\n")
+        assert bool([*zeros_taken_for_none(nodes, {"seed"})]) is is_found, line
 
 
-def test_nothing_replaces_files_unasked(trees):
+def test_nothing_replaces_files_unasked(sources):
     found = []
-    of = {path: tree for path, tree in trees.items() if "overwrite" in path.read_text("utf-8")}
-    for path, node in ((path, one) for path, tree in of.items() for one in ast.walk(tree)):
+    of = {path: each for path, each in sources.items() if "overwrite" in path.read_text("utf-8")}
+    for path, node in ((path, one) for path, nodes in of.items() for one in nodes):
         pairs = list[tuple[str, ast.expr | None]]()
         if isinstance(node, ast.arguments):
             names = [one.arg for one in (*node.posonlyargs, *node.args)]
@@ -138,11 +147,11 @@ def test_nothing_replaces_files_unasked(trees):
     assert [name for name, each in found if each.value is not False] == []
 
 
-def test_docstrings_begin_with_a_noun(trees):
+def test_docstrings_begin_with_a_noun(sources):
     found = [
         f"{path.relative_to(ROOT)}:{node.lineno}: {text.strip()[:50]}"
-        for path, tree in trees.items()
-        for node in ast.walk(tree)
+        for path, nodes in sources.items()
+        for node in nodes
         if isinstance(node, ast.Expr) and isinstance(text := getattr(node.value, "value", 0), str)
         if OPENING.match(text)
     ]

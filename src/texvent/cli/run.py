@@ -10,10 +10,11 @@ import itertools
 import time
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import closing
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import tomli_w
 
@@ -39,13 +40,16 @@ PART_PAIRS = 3
 """Pairs of frames of a part. Pixels at rest fire late, so the first one of later parts does not
 count."""
 MOST_SECONDS = 10.0
-"""No further part is begun after this time, which begins when the first one has been compiled."""
+"""No further part is begun after this time, which begins when the first one has been compiled; and
+none goes on for longer, but for so many steps."""
+LEAST_STEPS = 8
 
 
 def estimate_run(simulation: Simulation) -> str:
     """Events, time and memory of a run in two lines, from parts of its clip; nothing is written.
 
-    Every part is simulated twice: the first time may compile kernels, the second one is timed.
+    Every part is simulated twice: the first time may compile kernels, the second one is timed. Of a
+    scene whose light flickers fast, a share of one pair tells what all take.
 
     Raises:
         InputError: the frames cannot be used.
@@ -60,21 +64,22 @@ def estimate_run(simulation: Simulation) -> str:
     size = size_text(estimate_bytes(simulation.settings, simulation.video.size))
     memory = f"memory about {size}, however long the clip is"
     counted: list[int] = []
-    seconds, pairs, begun = 0.0, 0, 0.0
+    seconds, pairs, begun = 0.0, 0.0, 0.0
     for start, part in _parts(simulation.video, total):
         trial = replace(simulation, video=part, warns=False)
-        events, _ = _try(trial)
+        _try(trial)
         begun = begun or time.perf_counter()
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # said the first time
-            part_s = _try(trial)[1]
+            events, part_pairs, part_s = _try(trial)
         counted += events[1:] if start and len(events) > 1 else events
-        pairs, seconds = pairs + len(events), seconds + part_s
+        pairs, seconds = pairs + part_pairs, seconds + part_s
         if time.perf_counter() - begun > MOST_SECONDS:
             break
     if not counted:
         return f"no events: there is one frame only, so nothing could change\n{memory}"
-    tried = f"{pairs} of {'unknown' if total is None else total - 1} pairs of frames tried"
+    named = f"{pairs:.0f}" if pairs >= 1.0 else f"{pairs:.2g}"
+    tried = f"{named} of {'unknown' if total is None else total - 1} pairs of frames tried"
     rate = sum(counted) / len(counted)
     if total is None:
         return f"about {rate:,.0f} events per pair ({tried})\n{memory}"
@@ -82,15 +87,27 @@ def estimate_run(simulation: Simulation) -> str:
     return f"about {rate * (total - 1):,.0f} events in {whole_s:,.1f} s ({tried})\n{memory}"
 
 
-def _try(trial: Simulation) -> tuple[list[int], float]:
-    """Events of each pair of a part, and the time that it takes, s."""
-    started = time.perf_counter()
-    counts = [0]
-    for frame, packet in trial.steps():
-        counts[-1] += len(packet)
-        if frame.is_source:
-            counts.append(0)
-    return counts[1:-1], time.perf_counter() - started
+def _try(trial: Simulation) -> tuple[list[int], float, float]:
+    """Events of each pair of a part, how many pairs that is, and the time that they take, s.
+
+    Where not even one pair is done in time, its beginning tells its events.
+    """
+    started, counts, source_us, tried_s = time.perf_counter(), [0], 0, 0.0
+    fps, pairs = float(getattr(trial.video, "fps", None) or 0.0), 0.0
+    elapsed_s, last_us = 0.0, 0
+    with closing(cast(Any, trial.steps())) as steps:
+        for number, (frame, packet) in enumerate(steps, start=1):
+            counts[-1] += len(packet)
+            last_us, elapsed_s = frame.t_us, time.perf_counter() - started
+            if frame.is_source:
+                counts.append(0)
+                source_us, pairs, tried_s = last_us, len(counts) - 2.0, elapsed_s
+            if elapsed_s > MOST_SECONDS and number >= LEAST_STEPS and (pairs >= 1.0 or fps):
+                break
+    share = (last_us - source_us) * fps / MICROSECONDS
+    if pairs < 1.0 and share > 0.0:
+        return [round(counts[-1] / share)], share, elapsed_s
+    return counts[1:-1], pairs, tried_s
 
 
 def _parts(video: FrameStream, total: int | None) -> Iterator[tuple[int, FrameStream]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -40,7 +41,8 @@ class BodyBoxes(NamedTuple):
 
 def body_of(actor: Actor, cameras: Sequence[PosedCamera], times: Sequence[float]) -> BodyBoxes:
     """The body of an actor at instants, s, with the camera at each."""
-    corners = np.array([actor.corners(time) for time in times])
+    bare = replace(actor, props=()) if actor.props else actor  # a guitar is not the body
+    corners = np.array([bare.corners(time) for time in times])
     low, high = corners.min(axis=1), corners.max(axis=1)
     middle, shapes = 0.5 * (low + high), actor.place(times[0])
     seen = np.array([camera.rotation @ (place - camera.position)

@@ -266,6 +266,7 @@ def _list_without(
         value, usual = getattr(said, name), getattr(Place, name)
         is_so = name == "has_snow" and scene.place.ground is Ground.SNOW  # by itself
         is_so |= name == "clouds" and value == 0.0  # where the sky is in view it is so
+        is_so |= name == "is_wet" and (said.weather == "rain" or not value)
         if value != usual and value not in FALLING and not is_so:
             yield name, value, without(place=replace(said, **{name: usual}))
     if description.light.kind not in (None, "day"):

@@ -5,6 +5,7 @@ Left, right, front and behind are those of the image.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Mapping
 
 import numpy as np
@@ -27,6 +28,8 @@ _ROUNDING = 1e-6
 _FOOT, _BORNE, _SEATED = 0.3, 4, 0.6
 """Points of a foot around its middle, at so much of its size, of which something must be below so
 many; height of a seat over that of who sits there."""
+_BEHIND_KNEES = 0.25
+"""From the middle of who sits, legs ahead, back to the seat, in the extents of the body."""
 _TIP = 0.35
 """Most width of what is on a hill, as a share of that."""
 _LANE_M, _STOPPED, _STOPPED_M = 3.0, 1.5, 8.0
@@ -133,12 +136,15 @@ def _is_on(one: BodyBoxes, other: BodyBoxes) -> _Flags:
     bears = (parts[..., 1, 2] >= low) & (parts[..., 0, 2] <= high)
     is_larger = one.size > other.size  # such as a person on a chair, a bird on a fence
     reach = np.where(is_larger, 0.1 * other.size, _FOOT * one.size)[:, :2]
-    found = np.zeros(len(tall))
-    for way in _AROUND:
-        spot = (one.middle[:, :2] + way * reach)[:, None]
+    found = np.zeros((2, len(tall)))
+    back = np.where(
+        is_larger.any(axis=1)[:, None], one.ahead * _BEHIND_KNEES * one.size[:, :2], 0.0
+    )
+    for way, (number, share) in itertools.product(_AROUND, enumerate((0.0, 1.0))):
+        spot = (one.middle[:, :2] + way * reach - share * back)[:, None]
         is_below = ((parts[..., 0, :2] <= spot) & (parts[..., 1, :2] >= spot)).all(axis=-1)
-        found += (is_below & bears).any(axis=1)
-    return np.asarray((found >= _BORNE) & (_clears(one, other, 0.5) <= room))
+        found[number] += (is_below & bears).any(axis=1)
+    return np.asarray((found.max(axis=0) >= _BORNE) & (_clears(one, other, 0.5) <= room))
 
 
 def _is_on_tip(one: BodyBoxes, other: BodyBoxes) -> _Flags:

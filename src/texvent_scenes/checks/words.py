@@ -85,6 +85,8 @@ _OF_CAMERA = (SEEN, "circle", "camera", "macro")
 """Claims that may be made of the camera."""
 _COVERED = 0.6
 """Most distance in the image of what is covered, in half extents of both."""
+_LARGE = 0.25
+"""Least size of what is close to the camera, as a share of its distance."""
 _LIT_SHARE = 0.5
 """Share of the period of a lamp that blinks for which it is lit."""
 _MOSTLY = 0.75
@@ -241,6 +243,12 @@ def _shines(staged: StagedClip, claim: Claim) -> bool:
     return all(one.instance in lit for one in staged.own(claim))
 
 
+def _is_near(staged: StagedClip, claim: Claim) -> bool:
+    """Whether a body takes a good part of the image at some instant: "close to the camera"."""
+    return any((one.size.max(axis=1) >= _LARGE * np.maximum(one.seen[:, 2], 1e-3)).any()
+               for one in staged.own_boxes(claim))  # fmt: skip
+
+
 def _covers(staged: StagedClip, claim: Claim) -> bool:
     """Whether each body is before another one in the image at some time, and over much of it."""
     others = [one for n in claim.targets for one in staged.boxes[n]]
@@ -307,7 +315,7 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "reverse": goes_back, "fall": falls, "water": _is_in_water, "descend": descends,
     "land": lands, "aside": goes_aside, "along": goes_along,
     "grip": handles_by_hand, "camera": is_camera_so, "stop": stops, "move": moves, "tip": tips,
-    "turn": turns, "begin": begins, "pace": changes_pace,
+    "turn": turns, "begin": begins, "near": _is_near, "pace": changes_pace,
     "sky behind": _is_before_sky, "taken in": _is_taken_in,
     "sit at": _sits_at, "macro": is_macro, "overtaken": is_overtaken, "cover": _covers,
 }  # fmt: skip

@@ -92,13 +92,14 @@ class Walk:
 
     def steps(self, pose: Pose, seed: int) -> Steps:
         """Its steps at that pose."""
-        name = self.usual if self.usual and pose.activity == "move" else pose.activity
+        goes = pose.activity.partition(" and ")[0]  # "walk and wave"
+        name = self.usual if self.usual and goes == "move" else goes
         name = "run" if name == "trot" and name not in self.gaits else name
         name = name if name in self.gaits else next(iter(self.gaits))
         gait = self.gaits[name]
         begun = fraction(seed, "step") if self.starts_by_seed else 0.0
         full_m_s = self.full_m_s if gait.full_share else 0.0
-        amount = step_amount(pose.activity, pose.speed_m_s, full_m_s)
+        amount = step_amount(goes, pose.speed_m_s, full_m_s)
         return Steps(gait, pose.distance_m / gait.stride + begun, amount, name)
 
 

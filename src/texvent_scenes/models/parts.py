@@ -18,7 +18,7 @@ import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cache, cached_property, lru_cache
 from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any
@@ -296,10 +296,11 @@ def _moves_by_itself(table: Mapping[str, Any]) -> bool:
     return any(one.startswith("moving") and " by " not in one for one in lines)
 
 
-def _channels_of(act: str) -> set[str]:
+@cache
+def _channels_of(act: str) -> frozenset[str]:
     """Channels that an activity of animals decides."""
     row = motion_of("animal_activities", act)
-    return {*row, *row.get("keys", ())}
+    return frozenset((*row, *row.get("keys", ()))) - {"idle"}
 
 
 def _acts_of(table: Mapping[str, Any]) -> frozenset[str]:
@@ -314,5 +315,5 @@ def _acts_of(table: Mapping[str, Any]) -> frozenset[str]:
     return frozenset(
         name
         for name in ANIMAL_ACTIVITIES
-        if followed & (_channels_of(name) - {"idle"}) and limbs_of(name) <= followed
+        if followed & _channels_of(name) and limbs_of(name) <= followed
     )

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from texvent.prompt_report import Substitution
 from texvent_scenes.colours import rgb_of
 from texvent_scenes.description import Claim, Dependence
-from texvent_scenes.models.activities import PERSON_NOUNS
+from texvent_scenes.models.activities import PERSON_NOUNS, SAT
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
 from texvent_scenes.read.draft.copies import OPPOSITE, halve, take_turns
@@ -70,6 +70,7 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
     find_sources(draft)
     leave_sky(draft)
     _turn_marks(draft)
+    _skate_on_ice(draft)
     _bring_home(draft)
     _limit_counts(draft)
     _look_up(draft)
@@ -200,8 +201,14 @@ def _list_claims(draft: SceneDraft) -> Iterator[Claim]:
     closed = {one.text for one in lost if one.at not in claimed}
     for at, claims in draft.claims.items():
         fate = draft.fates.get(at, "lost")
+        claims = [one for one in claims if one.kind != "sit at" or not _has_seat(draft, one)]
         yield from (one for one in claims if one.word not in closed
                     and (fate == "shown" or (fate == "lost" and one.is_open)))  # fmt: skip
+
+
+def _has_seat(draft: SceneDraft, claim: Claim) -> bool:
+    """Whether the act of who sits somewhere comes with the seat, and with what it is done at."""
+    return claim.subject is not None and bool(draft.does([claim.subject]) & SAT)
 
 
 def _choose_gender(draft: SceneDraft) -> None:
@@ -301,6 +308,20 @@ def _bring_home(draft: SceneDraft) -> None:
             draft.show(before)
         else:
             draft.merge_compound(before, head, noun)
+
+
+def _skate_on_ice(draft: SceneDraft) -> None:
+    """Have those skate on blades who are on ice, or named so."""
+    is_ice = draft.parts["place"].get("name") in ("ice rink", "snow")
+    for index, thing in enumerate(draft.things):
+        skating = [one for one in thing["motions"] if one["kind"] == "skate"]
+        for one in skating if is_ice or thing["noun"] in nouns_with("skates on ice") else ():
+            one["kind"] = "skate on blades"
+            draft.claims = {
+                at: [replace(each, value="skate on blades")
+                     if (each.subject, each.value) == (index, "skate") else each for each in claims]
+                for at, claims in draft.claims.items()
+            }  # fmt: skip
 
 
 _LIGHT = 0.3

@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache
+from typing import Any
 
 from texvent_scenes.models.activities import (
+    ACTIVITIES,
     ANIMAL_ACTIVITIES,
     DONE_SEATED,
     HAND_NOUNS,
+    ON_FOOT,
     TIMED,
     is_mutual,
 )
@@ -22,9 +25,11 @@ from texvent_scenes.read.parsing.lexicon import VerbSense, list_forms, word_set,
 from texvent_scenes.read.parsing.tokens import Token
 from texvent_scenes.read.relations import bear_on, lead_on, relate_one, ridden_by
 from texvent_scenes.spec.data import SENT, WAYS
+from texvent_scenes.words import list_plurals
 
 _KICKED = nouns_with("kicked or thrown")
 _SWITCHED = ("on", "off")
+_CARRYING = nouns_with("carries people")
 EGO = "ego"
 """Needs of an act that is done to the vehicle of the camera."""
 _SLOWER = 0.45
@@ -44,6 +49,7 @@ def perform(
     if act is None or (has_object and not objects and act.who in ("plain", "body")):
         return None  # what it is done to is not known
     draft.show(verb)
+    act = _stand_on(draft, act, verb, objects)
     if act.kind == "rise" and all(draft.noun(one).habitat == "fixed" for one in subjects):
         act = replace(act, kind="stand")  # "mountains rise in the distance"
     if act.aims:
@@ -90,6 +96,14 @@ def _send(
     return list(subjects)
 
 
+def _stand_on(draft: SceneDraft, act: VerbSense, verb: Token, objects: Indices) -> VerbSense:
+    """An act of who rides what carries people in its place, as standing on it: an escalator."""
+    if act.relation != "ride" or not objects or not draft.names(objects) <= _CARRYING:
+        return act
+    draft.mark(verb, "stand")
+    return VerbSense(relation="on")
+
+
 def _relate_act(draft: SceneDraft, kind: str, verb: Token, index: int, objects: Indices) -> None:
     """Relate who acts to what the act is about, on a way that the staged scene holds."""
     who = ridden_by(draft, index, kind)
@@ -97,7 +111,7 @@ def _relate_act(draft: SceneDraft, kind: str, verb: Token, index: int, objects: 
     if kind == "follow" and about & nouns_with("runs on"):
         kind = "past"  # "follows a pipe"
     is_shot = verb.text.split()[0] in word_set("things", "shooting")
-    if kind == "throw" and is_shot and about == {"football"}:
+    if kind == "throw" and is_shot and about and about <= word_set("things", "by_foot"):
         kind = "kick"
     if kind == "lead":
         return lead_on(draft, verb, index, objects)
@@ -122,6 +136,10 @@ def _choose_act(
     """The first sense of a verb that the subjects can do."""
     acts = [one.value for one in verb.all("verb") if subjects]
     done = {draft.things[one].get("deed", "") for one in subjects} - {""}
+    words = {draft.things[one].get("word", "") for one in subjects}
+    if verb.text in _list_performing() and not done and words & _musicians():
+        return None  # of an instrument that nobody plays here: no game
+    done |= _list_played(draft, subjects) if verb.text in _list_performing() else set()
     if verb.text in _list_performing():
         acts[:0] = [VerbSense("person", one) for one in done]
     acts.sort(key=lambda one: one.kind not in done)  # "swings at a ball": a golfer, a batter
@@ -176,6 +194,11 @@ def _do(draft: SceneDraft, act: VerbSense, verb: Token, index: int) -> None:
         return  # its water does so
     if act.who not in ("source", "lamp"):
         before = [one["kind"] for one in thing["motions"]]
+        if before[-1:] and before[-1].startswith("show ") and act.kind.startswith("turn "):
+            thing["motions"].pop()  # "a red light turns green", as it does anyway
+            state = before.pop()
+            draft.claims = {at: [one for one in said if one.value != state]
+                            for at, said in draft.claims.items()}  # fmt: skip
         add_motion(thing, act, goes_on=draft.last.goes_on)
         if (row := ANIMAL_ACTIVITIES.get(act.kind)) and row.effect:
             draft.add_effect(verb, row.effect, [index])
@@ -183,7 +206,8 @@ def _do(draft: SceneDraft, act: VerbSense, verb: Token, index: int) -> None:
         is_begun = find_aspect(draft, verb) is not None  # "waits and starts driving"
         is_later = draft.last.goes_on and verb.verbs("ing") and len(thing["motions"]) > len(before)
         is_end = act.kind == "break"  # of a fall: "falls, shattering"
-        if is_later and before and not (is_seated or is_end or is_begun):
+        is_after = is_later and before and not (is_seated or is_end or is_begun)
+        if is_after and not (draft.walks(index) and _join(thing["motions"])):
             draft.mark(verb, f"then {act.kind}")  # "walks, waving": not at once
     elif act.who == "lamp" and act.kind in _SWITCHED:
         draft.switch(act.kind, index)
@@ -222,10 +246,34 @@ def begin(draft: SceneDraft, verb: Token, subjects: Indices) -> None:
     draft.claim(aspect, "begin", "", subjects)
 
 
+def _join(motions: list[dict[str, Any]]) -> bool:
+    """Let an act of the arms be done on the way: "walks, waving", "talks on a phone, walking"."""
+    way = [one for one in motions if one["kind"] in ON_FOOT and "end_pace" not in one]
+    acts = [one for one in motions if one["kind"] in DONE_SEATED]
+    if not len(motions) == 2 * len(way) == 2 * len(acts) == 2:
+        return False
+    motions[:] = [*way, {**acts[0], "start_s": 0.0}]
+    return True
+
+
 def _list_tools(activity: str) -> set[str]:
     """Nouns that a person has in hand in an act."""
     props = (one for one in list_props(activity) if one.anchor.endswith("hand"))
     return {noun for prop in props for noun in prop.nouns}
+
+
+def _list_played(draft: SceneDraft, subjects: Indices) -> set[str]:
+    """Acts on instruments at which subjects are, or that they have: "sits at a piano and plays"."""
+    near = draft.names(draft.targets(subjects, ("at", "on", "beside", "hold", "with")))
+    plays = (one for one in ACTIVITIES if one.startswith("play "))
+    return {one for one in plays if any(near & {*prop.nouns} for prop in list_props(one))}
+
+
+@cache
+def _musicians() -> frozenset[str]:
+    """Words of musicians who are not drawn playing: "cellists"."""
+    said = word_set("things", "musicians")
+    return frozenset(form for one in said for form in (one, *list_plurals(one)))
 
 
 @cache
@@ -250,7 +298,7 @@ def claim_act(draft: SceneDraft, act: VerbSense, verb: Token, index: int, object
         draft.claim(verb, "stop", "", [index])
     if act.who == "lamp" and draft.things[index]["noun"] not in word_set("things", "flames"):
         draft.claim(verb, "shine", "", [index])
-    if act.who in ("person", "hand", "animal") or act.kind == "lie":
+    if act.who in ("person", "hand", "animal", *draft.nouns) or act.kind == "lie":
         is_body = act.who != "plain" or draft.walks(index)
         draft.claim(verb, "activity" if is_body else "lie", act.kind, [index])
     elif verb.text in word_set("things", "hung"):

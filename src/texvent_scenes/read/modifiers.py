@@ -14,7 +14,7 @@ from texvent_scenes.models.protocol import Pose
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.acts import perform
 from texvent_scenes.read.draft.abilities import MEANS, Indices
-from texvent_scenes.read.draft.copies import part_off, part_ways
+from texvent_scenes.read.draft.copies import part_off, part_ways, switch_in_turn
 from texvent_scenes.read.draft.scene_draft import SceneDraft, add_motion, set_field
 from texvent_scenes.read.draft.setting import set_scene
 from texvent_scenes.read.parsing.groups import Group
@@ -98,6 +98,8 @@ def say_word(draft: SceneDraft, token: Token, subjects: Indices) -> None:
         is_aside = token.text in word_set("things", "aside")
         draft.claim(token, "aside", "", subjects if is_aside else [])
         draft.claim(token, "reverse", "", subjects if value == "backward" else [])
+        is_close = value == "near" and token.text != "in the foreground"
+        draft.claim(token, "near", "", subjects if is_close else [])
         is_lamp = field == "rate_hz" and all("blink_hz" in one for one in things)
         draft.claim(token, "shine" if is_lamp else SEEN, "", subjects)
     else:
@@ -139,6 +141,11 @@ def _say_at_once(
     if field == "in_turn" and not subjects and draft.effects:
         draft.show(*([token] if draft.effects[-1]["kind"] == "drip" else []))
         return True  # drops fall one by one
+    is_still = bool(subjects) and not any(draft.things[one]["motions"] for one in subjects)
+    if field == "in_turn" and is_still and any(draft.is_lamp(one) for one in subjects):
+        is_so = all([switch_in_turn(draft, one) for one in subjects])
+        draft.mark(token, "shown" if is_so else "lost")
+        return True
     for one in subjects if field == "in_mouth" else ():
         draft.take_in_mouth(one)
     if field == "wind":
@@ -199,6 +206,9 @@ def _say_field(draft: SceneDraft, token: Token, said: Sense, index: int) -> None
         name = "end_m_s" if is_end else name
     if name == "direction" and motions[-1:] and motions[-1]["kind"] == "hover" and value in _ASIDE:
         motions[-1]["kind"] = "move"  # "a bubble floats past"
+    if name == "direction" and motions and value in ("across", "diagonal"):
+        held = {"across", "diagonal"} & {motions[-1].get("direction")}
+        value = "diagonal" if held else value  # "diagonally across the screen"
     set_field(draft.things[index], said.kind, name, value)
     draft.quantities[index, name] = value
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from texvent_scenes.description import SEEN
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
-from texvent_scenes.models.tables import trait_values
+from texvent_scenes.models.tables import nouns_with, trait_values
 from texvent_scenes.read.acts import begin, perform
 from texvent_scenes.read.draft.abilities import Indices, is_of_people
 from texvent_scenes.read.draft.scene_draft import SceneDraft
@@ -26,7 +26,7 @@ _OF_NOBODY = {("light", "kind"), ("place", "wave_height")}
 def find_subjects(draft: SceneDraft, clause: Clause) -> list[int]:
     """Objects that a clause is about; in company, those that go by themselves."""
     heads = [one.head for one in clause.subjects]
-    if clause.about == "led":
+    if clause.about == "told":
         return draft.last.nearest if all(one and draft.shows(one) for one in heads) else []
     if clause.about == "company":
         if clause.is_of_effect or not all(one and draft.shows(one) for one in heads):
@@ -112,6 +112,13 @@ def find_object(
     others = [one for one in dict.fromkeys((*draft.last.acted, *nearest, *about))
               if one not in subjects
               and (one in persons) == (word in ("him", "her"))]  # fmt: skip
+    small = nouns_with("in hand or on something")
+    is_taken = clause.verb is not None and any(
+        one.value.relation in word_set("things", "of_bodies") for one in clause.verb.all("verb")
+    )
+    lighter = [one for one in others if draft.things[one]["noun"] in small]
+    if is_taken and lighter:
+        return lighter[:1]  # "a cup on a desk, and lifts it"
     return sorted(others, key=draft.can_go, reverse=True)[:1]  # no tree is followed
 
 

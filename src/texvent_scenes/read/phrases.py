@@ -10,7 +10,7 @@ from texvent_scenes.read.draft.abilities import Indices
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.draft.setting import names_place, set_scene
 from texvent_scenes.read.modifiers import say_word
-from texvent_scenes.read.parsing.groups import Phrase, heads_of, words_of
+from texvent_scenes.read.parsing.groups import Phrase, heads_of, nouns_of, words_of
 from texvent_scenes.read.parsing.lexicon import word_set
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
 from texvent_scenes.read.parts import are_own_parts
@@ -91,6 +91,9 @@ def _choose_placed(
         return told  # "in a room with candles on the table"
     if kind == "on" and draft.names(told) <= word_set("things", "flames"):
         return told or subjects  # "blows out the candles on a cake"
+    acted = draft.targets(subjects, ("act on", "hold", "lift"))
+    if kind in ("in", "on") and acted and _fill_vessels(draft, phrase, subjects):
+        return acted  # "arranges flowers in a vase"
     kinds = draft.acts(subjects)
     if kind in (kinds if subjects else PLACING):
         return told
@@ -106,6 +109,13 @@ def _choose_placed(
     return told if kind in PLACING and is_passed else subjects
 
 
+def _fill_vessels(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
+    """Whether a phrase names vessels that are too small for the people of whom it is said."""
+    nouns = {*nouns_of(phrase.groups)}
+    small = word_set("things", "vessels") - word_set("things", "roomy")
+    return bool(nouns) and nouns <= small and draft.names(subjects) <= PERSON_NOUNS
+
+
 def apply_phrase(draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: Indices) -> list[int]:
     """Apply a preposition with its groups, and give what they name.
 
@@ -116,7 +126,8 @@ def apply_phrase(draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: In
     if not phrase.groups or find_mutual(phrase.groups):
         _relate_back(draft, kind, phrase, subjects)
         return []
-    if dress(draft, phrase, subjects) or names_formation(draft, phrase, subjects):
+    is_told = _is_before_ego(draft, phrase, subjects, moved) or dress(draft, phrase, subjects)
+    if is_told or names_formation(draft, phrase, subjects):
         return []
     _look_at_sky(draft, phrase, subjects)
     targets = list[int]()
@@ -146,6 +157,25 @@ def apply_phrase(draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: In
     if is_lone and any(map(draft.shows, words_of(phrase.groups))):
         draft.show(token)
     return targets
+
+
+def _is_before_ego(
+    draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: Indices
+) -> bool:  # fmt: skip
+    """Apply "in front of the car", where a camera drives and no other car is named."""
+    heads = heads_of(phrase.groups)
+    nouns = {noun for one in heads for noun in one.nouns}
+    is_ego = draft.is_driven and phrase.preposition.relation == "front" and bool(subjects)
+    is_ego &= len(heads) == 1 and [one.article for one in phrase.groups] == ["the"]
+    if not is_ego or not nouns or draft.find(nouns):
+        return False
+    if any(draft.nouns[one].motion != "drive" for one in nouns if one in draft.nouns):
+        return False
+    draft.show(heads[0], phrase.preposition)
+    draft.claim(phrase.preposition, "camera", "before", [None], subjects)
+    for motion in (one for n in moved for one in draft.things[n]["motions"][-1:]):
+        motion.setdefault("direction", "across")
+    return True
 
 
 def _look_at_sky(draft: SceneDraft, phrase: Phrase, subjects: Indices) -> None:

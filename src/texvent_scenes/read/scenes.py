@@ -9,6 +9,7 @@ from texvent_scenes.models.protocol import Noun
 from texvent_scenes.read.account import Reading, finish
 from texvent_scenes.read.camera import apply_to_camera, is_ego, is_shot, look_out, sit_in
 from texvent_scenes.read.draft.scene_draft import SceneDraft
+from texvent_scenes.read.draft.setting import names_place
 from texvent_scenes.read.parsing.clauses import Clause, read_clauses
 from texvent_scenes.read.parsing.groups import Phrase, heads_of
 from texvent_scenes.read.parsing.lexicon import lexicon_of, word_set
@@ -99,7 +100,19 @@ def _says_of_parts(draft: SceneDraft, clause: Clause) -> bool:
     return True
 
 
+def _describe_place(clause: Clause) -> Clause:
+    """A clause that says of a place what it is like, as a group: "the background is grey"."""
+    first = clause.subjects[0] if len(clause.subjects) == 1 else None
+    said = [one for one in clause.after if isinstance(one, Token) and one.has("field")]
+    is_place = first is not None and first.head is not None and names_place(first.head, "")
+    if first is None or not (is_place and said) or clause.verb is not None:
+        return clause
+    whole = replace(first, modifiers=(*first.modifiers, *said))
+    return replace(clause, subjects=(whole,), after=tuple(o for o in clause.after if o not in said))
+
+
 def _apply_to_things(draft: SceneDraft, clause: Clause) -> None:
+    clause = _describe_place(clause)
     known, where = len(draft.things), draft.last.nearest
     draft.last.where = where
     told = subjects = find_subjects(draft, clause)

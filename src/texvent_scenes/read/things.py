@@ -18,7 +18,7 @@ from texvent_scenes.read.draft.copies import (
     stack,
 )
 from texvent_scenes.read.draft.scene_draft import SceneDraft, add_motion
-from texvent_scenes.read.draft.setting import names_place, set_place, set_scene
+from texvent_scenes.read.draft.setting import go_inside, names_place, set_place, set_scene
 from texvent_scenes.read.modifiers import say_modifiers, say_word
 from texvent_scenes.read.parsing.groups import Group, Phrase, is_trajectory, ordinals
 from texvent_scenes.read.parsing.lexicon import (
@@ -52,6 +52,11 @@ def pick_group(draft: SceneDraft, group: Group, known: int) -> list[int]:
     picked = add_like(draft, like[0]) if is_new else pick(draft, group.picks, group.count, whole)
     which = word_set("things", "members") | ({*ordinals()} if not is_new else set())
     for token in (*group.modifiers, *group.unknown) if picked else ():
+        if token.text in ("left", "right"):  # "the left one"
+            for index in picked:
+                draft.things[index]["placement"] = token.text
+            draft.show(token)
+            continue
         say_word(draft, token, picked)
         draft.show(*([token] if token.text == group.picks and token.text not in which else []))
     return picked
@@ -68,6 +73,8 @@ def name_group(
         group = replace(group, head=head)
     if head is not None and (formed := _list_formed(group, head)):
         return [index for one in formed for index in name_group(draft, one, relation, owners)]
+    if go_inside(draft, group, relation, owners):
+        return []
     if head is not None and names_place(head, relation) and not is_trajectory(group):
         set_place(draft, group, head, relation)
     elif head is not None and (whole := _find_whole(draft, group)):

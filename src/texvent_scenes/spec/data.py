@@ -112,6 +112,8 @@ def _faults(scene: Scene) -> Iterator[str]:
                    )  # fmt: skip
     yield from _circles(scene, ids)
     yield from _camera_faults(scene.camera)
+    if scene.place.is_wet is False and scene.place.weather == "rain":
+        yield "place.is_wet is false, but rain wets the ground; leave one of them out"
     if (lamps := len(scene.light.lamps)) > MAX_LAMPS:
         yield f"light.lamps are {lamps}; a scene has {MAX_LAMPS} at most"
 

@@ -84,7 +84,8 @@ class Motion:
     rate_hz: Hertz | None = None
     """Repetitions per second: of an oscillation ("sway", "tilt", to and fro), turns of a spin."""
     start_s: Seconds | None = None
-    """Start time, s; left out: time 0, or the end of the motion before."""
+    """Start time, s; left out: time 0, or the end of the motion before. An act of the arms that
+    starts at 0 after a walk is done on the way."""
 
     @property
     def is_moving(self) -> bool:
@@ -299,8 +300,8 @@ class Place:
     """Whether scenery and furniture are left out."""
     has_snow: bool = False
     """Whether snow lies on the ground."""
-    is_wet: bool = False
-    """Whether the ground is wet, as after rain."""
+    is_wet: bool | None = None
+    """Whether the ground is wet, as after rain; left out: where it rains."""
     wave_height: Annotated[float, Between(0.0, 20.0)] = 1.0
     """Height of water waves, as a multiple of those in a light breeze."""
 

@@ -49,6 +49,7 @@ from texvent_scenes.staging.surroundings.lamps import LampPlan, plan_lamps
 from texvent_scenes.staging.surroundings.lighting import DARK, choose_lighting
 from texvent_scenes.staging.surroundings.pieces import SceneryItem, ViewClearance
 from texvent_scenes.staging.surroundings.scenery import scatter
+from texvent_scenes.staging.tracks.phases import schedule
 
 VIEW_INSTANTS = 7
 """Instants of the clip at which scenery must not hide anything."""
@@ -57,6 +58,8 @@ VIEW_INSTANTS = 7
 _NO_MEDIA = np.zeros(0, MEDIUM_RECORD)
 _THREAD, _THREAD_M = Material((0.15, 0.14, 0.13)), 20.0
 """Thread on which hangs what is in the air until it falls; its length, m."""
+_GONE = np.array([[1e-4, 0.0, 0.0, 0.0], [0.0, 1e-4, 0.0, 0.0], [0.0, 0.0, 1e-4, -50.0]])
+"""Where a thread is then: far below the ground, and a point."""
 _OFF_THE_BED = 0.5
 """Height of swimmers above the bed of the sea, as a multiple of their own."""
 _SUNK, _WADING, _AWASH, _DRAUGHT = -0.18, -0.55, -0.4, -0.3
@@ -87,6 +90,8 @@ class ComposedScene:
     """Objects that are not held and have no place."""
     scenery: tuple[SceneryItem, ...] = ()
     """The pieces of which `still` is made."""
+    threads: tuple[tuple[PlacedModel, float], ...] = ()
+    """Those on which bodies hang, each until an instant, s."""
     has_highlights: bool = False
     """Whether light above white is kept; see `rendered_scene.Environment`."""
 
@@ -94,7 +99,8 @@ class ComposedScene:
         """All shapes at that instant: actors, then scenery, then weather."""
         acting = assemble([self.lamps.place(actor, time_s) for actor in self.actors])
         small = [effect.at(time_s) for effect in self.particles.effects]
-        shapes = join_primitives([acting, self.still, *small])
+        hanging = assemble([_until(*one, time_s) for one in self.threads])
+        shapes = join_primitives([acting, self.still, hanging, *small])
         factor = np.float32(self.animated_environment.flicker(time_s))
         return replace(shapes, emission=shapes.emission * factor)
 
@@ -171,13 +177,12 @@ def compose_scene(
         actors, camera_path, place, duration_s, seed, is_dark=description.light.kind in DARK
     )  # fmt: skip
     particles = stage_effects(description, setting)
-    held = [one for one in actors if waits_to_fall(description.objects[one.object_index])]
-    still = assemble([*(item.place() for item in items), *map(_hang, held)])
+    still = assemble([item.place() for item in items])
     return ComposedScene(
         tuple(actors), still, particles, camera_path, ground, animated_environment, lamps, names,
         tuple(dict.fromkeys([*placer.not_shown, *_list_late(description, duration_s)])),
         (*dict.fromkeys(placer.notes), *_tell_roads(description, ground, view.road)),
-        placer.orphans, tuple(items),
+        placer.orphans, tuple(items), tuple(_list_threads(description, actors, duration_s)),
     )  # fmt: skip
 
 
@@ -210,6 +215,25 @@ def _hang(actor: Actor) -> PlacedModel:
     thread = rod(_THREAD, (x, y, top - 0.1 * actor.model.height), (x, y, top + _THREAD_M),
                  max(0.004, 0.01 * actor.size_m))  # fmt: skip
     return PlacedModel([thread], np.eye(3, 4), 0)
+
+
+def _list_threads(
+    description: SceneDescription, actors: Sequence[Actor], duration_s: float
+) -> Iterator[tuple[PlacedModel, float]]:
+    """The threads of what waits in the air, and when each lets go, s."""
+    for one in actors:
+        said = description.objects[one.object_index]
+        if waits_to_fall(said):
+            falls = (each.start_s for each in schedule(said.motions, duration_s)
+                     if each.motion.kind == "fall")  # fmt: skip
+            yield _hang(one), next(falls, duration_s)
+
+
+def _until(hung: PlacedModel, end_s: float, time_s: float) -> PlacedModel:
+    """A thread at an instant; it is gone when what hung on it falls."""
+    if time_s < end_s:
+        return hung
+    return replace(hung, to_world=_GONE)
 
 
 def _list_late(description: SceneDescription, duration_s: float) -> Iterator[str]:

@@ -7,11 +7,12 @@ places and light have tables: `READ_BY_MOVES`, and the conditions below.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields, replace
 from functools import lru_cache
 from itertools import islice
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 
@@ -27,6 +28,7 @@ from texvent_scenes.models.protocol import Model, Noun, Pose
 from texvent_scenes.models.tables import nouns_with, trait_values
 from texvent_scenes.spec.data import PLACING, scene_from_data, scene_to_data, steps_of
 from texvent_scenes.spec.scene import (
+    Material,
     Motion,
     MoveDirection,
     MoveKind,
@@ -38,8 +40,9 @@ from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.idle_surroundings import MOST_NAMED, Idle, idle_light, idle_place
 from texvent_scenes.staging.interactions.perform import in_hand
 from texvent_scenes.staging.tracks.choose_track import choose_track
+from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2
 from texvent_scenes.staging.tracks.motion_plan import plan_motion
-from texvent_scenes.staging.tracks.phases import PATH_KINDS, fits_in_hand, rests_in_hand
+from texvent_scenes.staging.tracks.phases import PATH_KINDS, YAWS, fits_in_hand, rests_in_hand
 
 RESTS = frozenset({"stand", "stand open", "stand closed", "sit", "lie", "hang", "move"})
 """Motions that say no more than a noun does anyway."""
@@ -55,6 +58,10 @@ TURNS = ("left", "right", "clockwise", "counter-clockwise", "towards", "away", "
 _SHARES = (0.0, 0.07, 0.13, 0.21, 0.29, 0.41, 0.5, 0.6, 0.71, 0.83, 0.97)
 """Instants at which bodies are compared, as shares of the time up to the last start, and after."""
 _USUAL_S = 2.0
+_MOST_KINDS = 12
+"""Most kinds of motion that an error names."""
+_LANDING_S = 0.02
+"""Most difference between a stated time of a landing and that by gravity, s."""
 _TURNS, _SHIFTS = (
     frozenset({"direction", "pace", "rate_deg_s"}),
     frozenset({"direction", "pace", "speed_m_s"}),
@@ -124,6 +131,20 @@ class _Body:
         if name == "direction" and self.noun.is_working:  # it may go to and fro along one way
             probes = next((pair for pair in _OPPOSITE if given in pair), probes)
         return any(self.differ(_with(one, number, **{name: probe}), without) for probe in probes)
+
+    def lands_at(self, one: SceneObject, number: int) -> float | None:
+        """Instant at which it is down before it bounces, s; None where nothing falls before."""
+        before = one.motions[number - 1] if number else None
+        if one.motions[number].kind != "bounce" or before is None or before.kind != "fall":
+            return None
+        track = self._put_on(one, _USUAL_S + (one.motions[number].start_s or 0.0)).track
+        begin_s = 0.0
+        for key in track.keys:
+            if key.restitution is not None:
+                drop_m = max(track.at(begin_s).position[2] - track.floor_m, 0.0)
+                return begin_s + math.sqrt(2.0 * drop_m / GRAVITY_M_S2)
+            begin_s += key.duration_s
+        return None
 
     def does(self, one: SceneObject, number: int) -> bool:
         """Whether a motion of it is any other than rest, or, at the end of a list, than none."""
@@ -229,14 +250,19 @@ def _idle_looks(where: str, one: SceneObject, noun: Noun) -> Iterator[Idle]:
         tried = [build(each, one.material) for each in (one.colour, "red", "blue")]
         if all(each == tried[0] for each in tried):
             yield Idle(f"{where}.colour", f"a {one.noun} has colours of its own")
-    if one.material is not None and build(None, one.material) == build(None, None):
-        yield Idle(f"{where}.material", f"a {one.noun} is of it anyway, or cannot be of any other")
+    usual = build(None, None)
+    if one.material is not None and build(None, one.material) == usual:
+        others = (each for each in get_args(Material) if build(None, each) != usual)
+        is_usual = next(others, None) is not None
+        why = f"a {one.noun} is of it anyway, or cannot be of any other"
+        yield Idle(f"{where}.material", why, is_usual)
     for name in ("blink_hz", "switch_s", "is_lit"):
         has_light = noun.name in LAMPS or noun.name in nouns_with("own effect")
         has_light |= name == "blink_hz" and noun.name in nouns_with("flat pattern")
         if getattr(one, name) is not None and not has_light:
             known = few(sorted(LAMPS), MOST_NAMED)
-            yield Idle(f"{where}.{name}", f"a {one.noun} has no lamp; these have: {known}")
+            why = f"a {one.noun} has no lamp; these have: {known}"
+            yield Idle(f"{where}.{name}", why, getattr(one, name) is False)
     if one.placement is not None and one.position_m is not None:
         yield Idle(f"{where}.placement", "position_m takes its place; leave one of them out")
 
@@ -245,7 +271,8 @@ def _idle_motions(where: str, one: SceneObject, body: _Body) -> Iterator[Idle]:
     for number, motion in enumerate(one.motions):
         path = f"{where}.motions[{number}]"
         if not body.does(one, number):
-            yield Idle(f"{path}.kind", _why_not_done(body, one, motion.kind))
+            is_usual = motion.kind in RESTS
+            yield Idle(f"{path}.kind", _why_not_done(body, one, motion.kind), is_usual)
             continue
         for each in fields(Motion):
             given, usual = getattr(motion, each.name), each.default
@@ -255,12 +282,15 @@ def _idle_motions(where: str, one: SceneObject, body: _Body) -> Iterator[Idle]:
             if is_no_turn and given not in TURNS:
                 yield Idle(f"{path}.direction", f"a turn goes: {', '.join(TURNS)}")
             elif not body.reads(one, number, each.name):
-                yield Idle(f"{path}.{each.name}", _who_reads(body, one, motion, each.name))
+                why = _who_reads(body, one, number, each.name)
+                yield Idle(f"{path}.{each.name}", why, _is_usual(body, one, number, each.name))
     if one.heading_deg is not None:
         bare = replace(one, heading_deg=None)
         turned = (replace(one, heading_deg=angle) for angle in (one.heading_deg, 17.0, 101.0))
         if not any(body.differ(each, bare) for each in turned):
-            yield Idle(f"{where}.heading_deg", f"a {one.noun} shows its front to the camera then")
+            is_usual = abs(math.remainder(one.heading_deg + 90.0, 360.0)) < 1e-9
+            why = f"a {one.noun} shows its front to the camera then: its heading is -90"
+            yield Idle(f"{where}.heading_deg", why, is_usual)
 
 
 def _list_held(scene: Scene, ids: Sequence[str]) -> Iterator[tuple[str, str]]:
@@ -309,22 +339,43 @@ def _name_kinds(body: _Body, holds: Callable[[SceneObject], bool]) -> str:
              and not (body.is_held and not fits_in_hand(Motion(kind), body.noun))]  # fmt: skip
     does = (kind for kind in kinds
             if holds(SceneObject(body.noun.name, motions=(Motion(kind),))))  # fmt: skip
-    named = list(islice(does, MOST_NAMED + 1))
-    return ", ".join([*named[:MOST_NAMED], *["..."][: max(len(named) - MOST_NAMED, 0)]])
+    named = list(islice(does, _MOST_KINDS + 1))
+    more = " and others of `texvent scenes`" if len(named) > _MOST_KINDS else ""
+    return ", ".join(named[:_MOST_KINDS]) + more
 
 
-def _who_reads(body: _Body, one: SceneObject, motion: Motion, name: str) -> str:
+def _who_reads(body: _Body, one: SceneObject, number: int, name: str) -> str:
     """Why a field of a motion has no effect, and what would give it one."""
+    motion = one.motions[number]
     if name == "pace" and motion.speed_m_s is not None:
         return "speed_m_s takes its place; leave one of them out"
     if name == "direction" and one.heading_deg is not None and motion.kind != "turn":
         return "heading_deg takes its place; leave one of them out"
     given = getattr(motion, name)
+    if name == "start_s" and (landing_s := body.lands_at(one, number)) is not None:
+        return (f"what falls bounces as soon as it is down, at {landing_s:.3f} s; leave it out, or "
+                "change the height or the start of the fall")  # fmt: skip
+    alone = replace(one, motions=(motion,))
+    if number and body.reads(alone, 0, name):
+        return (f"after {shown(one.motions[number - 1].kind)}, {shown(motion.kind)} of a "
+                f"{one.noun} does not read it, for that decides; leave it out")  # fmt: skip
     readers = _name_kinds(body, lambda other: body.reads(_with(other, 0, **{name: given}), 0, name))
     if name == "rate_hz" and motion.kind in PATH_KINDS:
         readers = f'{readers}; or direction "to and fro"'
     left = f"these do: {readers}" if readers else f"no motion of a {one.noun} does"
     return f"{shown(motion.kind)} of a {one.noun} does not read it; {left}"
+
+
+def _is_usual(body: _Body, one: SceneObject, number: int, name: str) -> bool:
+    """Whether a field without effect says what is so anyway."""
+    motion = one.motions[number]
+    if name == "direction" and one.heading_deg is not None and motion.direction in YAWS:
+        turn = one.heading_deg - math.degrees(YAWS[motion.direction])
+        return abs(math.remainder(turn, 360.0)) < 1e-9
+    if name != "start_s" or motion.start_s is None:
+        return False
+    landing_s = body.lands_at(one, number)
+    return landing_s is not None and abs(motion.start_s - landing_s) <= _LANDING_S
 
 
 def _idle_moves(scene: Scene) -> Iterator[Idle]:

@@ -20,6 +20,8 @@ class Idle(NamedTuple):
 
     path: str
     why: str
+    is_usual: bool = False
+    """Whether it says only what is so anyway: no file is refused for that."""
 
 
 def idle_light(scene: Scene) -> Iterator[Idle]:
@@ -57,11 +59,14 @@ def idle_place(scene: Scene, name: str) -> Iterator[Idle]:
         value = getattr(said, each.name)
         if reads is None or value in (each.default, ()) or reads(PLACES[name]):
             continue
+        if value is False:  # it is not wet
+            yield Idle(f"place.{each.name}", f"the place {shown(name)} is not", is_usual=True)
+            continue
         known = few([other for other, place in PLACES.items() if reads(place)], MOST_NAMED)
         yield Idle(f"place.{each.name}", f"the place {shown(name)} has not {needed}; "
                    f"these have: {known}")  # fmt: skip
     if said.is_wet and said.weather == "rain" and PLACES[name].ground in _WETTED:
-        yield Idle("place.is_wet", "rain wets the ground anyway")
+        yield Idle("place.is_wet", "rain wets the ground anyway", is_usual=True)
     is_lane = [one.placement == "lane" for one in scene.objects]
     travels = any(one.kind == "travel" for one in scene.camera.moves)
     for road_field in ("road_m", "road_heading_deg") if travels else ():

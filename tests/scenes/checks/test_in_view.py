@@ -245,7 +245,7 @@ PLACED = {
     "front of what drives": (*IN_LANE, at(-4.0)),
     "in": (at(1.1), at(1.15), at(0.0, 0.0, 2.2)),
     "above": (at(1.6, 0.0, 2.35), at(1.6, 0.0, 2.25), at(1.65, 0.0, 5.0)),
-    "on": ON, "on a slope": ON,
+    "on": ON, "on a slope": ON, "on a tip": (None, *ON),
     "on a seat": (at(1.1, 0.0, 1.4), at(1.1, 0.0, 1.6), at(1.2, 0.0, 1.4)),
     "on a face": (at(1.51), at(1.6), at(1.51, 0.0, 2.2)),
     "hung": (at(1.54, 0.0, 1.5), at(1.56, 0.0, 1.5), at(1.54, 0.0, 1.6)),

@@ -293,11 +293,17 @@ def test_what_waits_in_the_air_hangs_on_a_thread_above_it(noun, is_held):
     late, once = (
         stage(thing(noun, *motions)) for motions in ((("stand",), ("fall",)), (("fall",),))
     )
-    threads = len(late.still.shape) - len(once.still.shape)
-    assert threads == is_held
+    assert (len(late.threads), len(once.threads)) == (is_held, 0)
     body = late.actors[0].corners(0.0)
     middle = 0.5 * (body.min(axis=0) + body.max(axis=0))
-    for to_world in late.still.to_world[len(late.still.shape) - threads :]:
+    for hung, until_s in late.threads:
+        to_world = hung.parts[0].to_body
+        assert late.actors[0].corners(until_s)[:, 2].min() == pytest.approx(body[:, 2].min())
+        assert late.actors[0].corners(until_s + 0.1)[:, 2].min() < body[:, 2].min() - 0.01
+        for at_s, reach_m in ((until_s - 1e-3, 10.0), (until_s, 0.01)):
+            drawn = late.primitives(at_s)
+            longest = np.linalg.norm(drawn.to_world[:, :, 2], axis=1)[drawn.instance == 0]
+            assert (longest.max() > reach_m) == (reach_m == 10.0)
         ends = to_world[:, 3] + np.outer((-1.0, 1.0), to_world[:, 2])
         assert np.allclose(ends[:, :2], middle[:2], atol=1e-6)
         assert middle[2] < ends[:, 2].min() < body[:, 2].max() < ends[:, 2].max() - 10.0
@@ -312,3 +318,58 @@ def test_a_motion_that_is_done_already_is_told_from_one_that_is_never_done(noun,
     scene = scene_from_data({"objects": [{"noun": noun, "motions": [{"kind": k} for k in kinds]}]})
     with pytest.raises(ConfigError, match=why):
         ProceduralGenerator(ProceduralConfig(duration=2.0)).report(scene)
+
+
+USUAL = [
+    ({"place": Place("road", weather="rain", is_wet=True)}, None),
+    ({"place": Place("road", weather="rain", is_wet=False)}, "rain wets the ground; leave"),
+    ({"place": Place("grass", is_wet=False)}, None),
+    ({"place": Place("grass", is_wet=True)}, "has not a road or a paved ground"),
+    ({"objects": (SceneObject("box", is_lit=False),)}, None),
+    ({"objects": (SceneObject("box", is_lit=True),)}, "has no lamp"),
+    ({"objects": (SceneObject("car", heading_deg=180, motions=(Motion("drive", "left"),)),)}, None),
+    ({"objects": (SceneObject("car", heading_deg=-180, motions=(Motion("drive", "left"),)),)},
+     None),
+    ({"objects": (SceneObject("car", heading_deg=170, motions=(Motion("drive", "left"),)),)},
+     "heading_deg takes its place"),
+    ({"objects": (SceneObject("man", motions=(Motion("stand"), Motion("stand", start_s=1.0))),)},
+     None),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("fields", "why"), USUAL)
+def test_what_is_so_anyway_is_accepted_and_what_contradicts_is_refused(fields, why):
+    if why is None:
+        describe_scene(Scene(**fields), NOUNS)
+        return
+    with pytest.raises(ConfigError, match=why):
+        describe_scene(Scene(**fields), NOUNS)
+
+
+@for_every(itertools.product((0.5, 1.2, 4.0), (None, 0.4), ("ball", "box", "tennis ball")))
+def test_a_bounce_after_a_fall_has_the_time_of_the_landing_or_none(row):
+    height_m, fall_s, noun = row
+    landing_s = (fall_s or 0.0) + math.sqrt(2.0 * height_m / 9.81)
+    first = () if fall_s is None else (Motion("stand"),)
+
+    def check(start_s):
+        motions = (*first, Motion("fall", start_s=fall_s), Motion("bounce", start_s=start_s))
+        one = SceneObject(noun, height_m=height_m, motions=motions)
+        describe_scene(Scene(objects=(one,)), NOUNS)
+
+    for agreeing_s in (None, landing_s, landing_s + 0.01):
+        check(agreeing_s)
+    with pytest.raises(ConfigError, match=rf"as soon as it is down, at {landing_s:.3f} s; leave"):
+        check(landing_s + 0.2)
+
+
+@for_every([(kind, noun, name, value) for kind, noun, name, value in ROWS])
+def test_an_error_of_a_field_does_not_name_its_own_motion_as_one_that_reads_it(row):
+    kind, noun, name, value = row
+    for before in ((), (Motion("stand"),), (Motion("fall"),)):
+        motions = (*before, Motion(kind, **{name: value}))
+        scene = Scene(objects=(SceneObject(noun, motions=motions),))
+        for idle in list_idle(scene, Scene(place=Place("plain")), NOUNS):
+            assert "..." not in idle.why
+            named = idle.why.partition("these do: ")[2].partition(";")[0].split(", ")
+            assert kind not in named or idle.path.endswith(".kind")

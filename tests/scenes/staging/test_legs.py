@@ -62,6 +62,59 @@ def test_a_leg_is_its_speed_times_its_duration_long(row):
     np.testing.assert_allclose(track.at(3.0).position[:2], end, atol=2e-3)
 
 
+MOVED = [("ball", "roll", 2.0), ("man", "walk", 1.4), ("child", "run", 2.5), ("car", "drive", 8.0),
+         ("drone", "fly", 4.0), ("dog", "run", 4.0), ("bird", "fly", 6.0), ("box", "slide", 1.0),
+         ("mobile robot", "drive", 1.0)]  # fmt: skip
+
+
+@for_every(itertools.product(MOVED, ("right", "left", "away", "towards"), (0.8, 1.5, 2.2)))
+def test_what_starts_and_stops_at_stated_times_is_where_its_legs_end(row):
+    (noun, kind, speed), way, start_s = row
+    stop_s = start_s + 1.5
+    motions = (Motion("stand"), Motion(kind, way, speed_m_s=speed, start_s=start_s),
+               Motion("stand", start_s=stop_s))  # fmt: skip
+    track = place(SceneObject(noun, position_m=(1.0, -2.0), motions=motions), stop_s + 1.5)
+    along = np.array([math.cos(YAWS[way]), math.sin(YAWS[way])])
+    for at_s, leg_s in ((0.0, 0.0), (start_s + 0.75, 0.75), (stop_s + 1.5, 1.5)):
+        gone = track.at(at_s).position[:2] - np.array([1.0, -2.0])
+        np.testing.assert_allclose(gone, speed * leg_s * along, atol=2e-3)
+    speeds = [track.at(t).speed_m_s for t in np.linspace(0.0, stop_s + 1.5, 81)]
+    assert speeds[0] == speeds[-1] == 0.0
+    assert max(speeds) <= speed + 1e-9
+
+
+STOPPING = [("dog", "run", "sit"), ("man", "walk", "wave"), ("cat", "walk", "lie"),
+            ("woman", "run", "sit down")]  # fmt: skip
+
+
+@for_every(itertools.product(STOPPING, (0.8, 1.5)))
+def test_who_does_something_at_rest_after_a_leg_begins_it_at_its_time_where_that_ends(row):
+    (noun, going, done), stop_s = row
+    motions = (Motion(going, "right", speed_m_s=2.0), Motion(done, start_s=stop_s))
+    track = place(SceneObject(noun, position_m=(0.0, 0.0), motions=motions), stop_s + 2.0)
+    assert track.at(stop_s + 2.0).position[0] == pytest.approx(2.0 * stop_s, abs=2e-3)
+    assert track.at(stop_s - 1e-3).activity == going
+    assert track.at(stop_s + 1e-3).activity != going
+
+
+@for_every(itertools.product(MOVED, (0.5, 1.0, 2.0)))
+def test_a_leg_at_another_speed_is_as_long_as_its_time_says(row):
+    (noun, kind, speed), faster = row
+    motions = legs_of(kind, ("right", "right"), (speed, faster * speed), 1.5)
+    track = place(SceneObject(noun, position_m=(0.0, 0.0), motions=motions), 3.0)
+    assert track.at(3.0).position[0] == pytest.approx(1.5 * speed * (1.0 + faster), abs=2e-3)
+
+
+@for_every(itertools.product(GOERS, (0.6, 1.0, 1.6), (1.0, 1.5)))
+def test_who_turns_back_is_where_the_legs_there_and_back_end(row):
+    (noun, kind, speed), faster, leg_s = row
+    motions = legs_of(kind, ("right", "left"), (speed, faster * speed), leg_s)
+    track = place(SceneObject(noun, position_m=(0.0, 0.0), motions=motions), 2.0 * leg_s)
+    x, y = track.at(2.0 * leg_s).position[:2]
+    assert (x, y) == pytest.approx((speed * leg_s * (1.0 - faster), 0.0), abs=2e-3)
+    assert math.cos(track.at(2.0 * leg_s).yaw) == pytest.approx(-1.0, abs=1e-3)
+
+
 @for_every(itertools.product(("car", "van", "bus", "bicycle"), (0.0, 180.0, 90.0, 270.0, 30.0),
                              ("towards", "away")))  # fmt: skip
 def test_a_turn_towards_or_away_heads_there_from_any_heading(row):

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, get_args
 
 from texvent_scenes.description import Claim
+from texvent_scenes.models.activities import SAT
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with
@@ -20,6 +21,8 @@ _SAID_TWICE = ("travel", "handheld", "static")
 """Moves of which a verb says what a shot is: "handheld camera shaking"."""
 _NEAR = 3
 """Words from an effect to what it comes from: "smoke is rising from a chimney"."""
+_DRIVEN = "travel forward drive"
+"""Shot from a vehicle on a road."""
 _UNTURNED = ("handheld", "static")
 _TURNING = ("spin", "roll", "slide")
 BLINK_HZ = 2.0
@@ -159,6 +162,12 @@ class SceneDraft(Abilities):
         if move.get("means") == "fly":
             self.parts["camera"].setdefault("view", "aerial")
 
+    @property
+    def is_driven(self) -> bool:
+        """Whether a prompt says of its view that it is from a vehicle on a road."""
+        shots = {sense.value for token in self.tokens for sense in token.all("shot")}
+        return _DRIVEN in shots or any(one.get("means") == "drive" for one in self.moves)
+
     def set_journey(self, name: str, value: Any) -> bool:
         """Set a speed or a rate of the camera's last move that has one; False: none has."""
         moves = [one for one in self.moves if turn_by(one, name, value) != one]
@@ -278,6 +287,8 @@ def add_motion(thing: dict[str, Any], act: VerbSense, *, goes_on: bool = False) 
     is_posture = act.kind not in (*MEANS, "move")
     if goes_on and is_posture and (last["kind"] == "stand" or last == {"kind": act.kind}):
         motions.pop()  # "stands reading"; "a roundabout with cars circling" on it
+    if last == {"kind": "sit"} and act.kind in SAT:
+        motions.pop()  # "sits at a piano and plays", on a stool that comes with it
     end_pace = None if act.kind == "stand" else act.end_pace
     said = {"kind": act.kind, "direction": act.direction, "end_pace": end_pace}
     motion = {name: value for name, value in said.items() if value is not None}

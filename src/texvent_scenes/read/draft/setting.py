@@ -72,6 +72,8 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
     """As "on a snowy road", "a red sky", "a mountain road"; a second place is far off."""
     place = draft.parts["place"]
     name = head.all("place")[0].value
+    is_room_again = head.text == "room" and "name" in place and is_room(place["name"])
+    name = place["name"] if is_room_again else name
     is_it = name in ("sky", place.get("name", name))
     for token in group.modifiers:
         field, value = token.value("field")
@@ -89,7 +91,7 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
         draft.show(*(one for one in said if head.at - one.at <= len(group.modifiers) + 1))
     draft.show_inherent(group.unknown, name)
     for token in group.unknown:
-        _fill_place(draft, token, name)
+        _fill_place(draft, token, (head.text, name))
     set_scene(draft, head)
     is_said = bool(group.modifiers) and relation not in ("in", "on", "through")
     is_bare = name == "sky" and not relation and "name" not in place
@@ -106,6 +108,23 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
         draft.mark(head, name if head.text in word_set("things", "stand_ins") else "shown")
 
 
+def go_inside(draft: SceneDraft, group: Group, relation: str, owners: Sequence[int]) -> bool:
+    """Show a room for the building in which some are who walk; whether it does.
+
+    As in "a man prays in a church", where no place is said and the building is no thing yet.
+    """
+    head, rooms = group.head, word_table("interiors")
+    noun = group.noun.noun if group.noun is not None else ""
+    is_open = relation == "in" and noun in rooms and "name" not in draft.parts["place"]
+    if head is None or not (is_open and owners) or draft.find([noun]):
+        return False
+    if not all(map(draft.walks, owners)):
+        return False
+    draft.parts["place"]["name"] = rooms[noun]
+    draft.mark(head, rooms[noun])
+    return True
+
+
 def leave_sky(draft: SceneDraft) -> bool:
     """Leave open where things on the ground are of which only the sky is said: "it is clear"."""
     on_ground = draft.is_over and any(map(draft.keeps_to_ground, range(len(draft.things))))
@@ -114,10 +133,11 @@ def leave_sky(draft: SceneDraft) -> bool:
     return on_ground
 
 
-def _fill_place(draft: SceneDraft, token: Token, place: str) -> None:
+def _fill_place(draft: SceneDraft, token: Token, names: Sequence[str]) -> None:
     """Add those of whom a place is full: "a busy street"."""
     full = word_table("brings")
-    brought = full.get(f"{token.text} {place}") or full.get(token.text, {})
+    said = (full.get(f"{token.text} {one}") for one in names)
+    brought = next(filter(None, said), full.get(token.text, {}))
     for noun, count in brought.items():
         draft.show(token)
         draft.claim(token, SEEN, "", [draft.add(noun, count)])

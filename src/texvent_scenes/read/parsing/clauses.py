@@ -38,7 +38,7 @@ class Clause:
     """Whether its object is a pronoun: "overtakes them"."""
     about: str = ""
     """Subject that is not named: "camera"; that of the clause before, "same", "meanwhile" or "then"
-    (later); "nearest", its last group; "company", either: "a boat with dolphins jumping"; "led",
+    (later); "nearest", its last group; "company", either: "a boat with dolphins jumping"; "told",
     its objects: "watches a dog jump". "where": they are by its last group."""
 
     @property
@@ -191,7 +191,7 @@ class _Parser(GroupReader):
         if clause.verb.text not in _list_leading() or not self._token(is_marked).verbs("base"):
             return None
         self._at += is_marked
-        return Clause(clause.objects, about="led")
+        return Clause(clause.objects, about="told")
 
     # Parts of a clause: each step gives the clause with what it has read, or None
 

@@ -272,6 +272,7 @@ class GroupReader:
             ahead += 1
         after = self._token(ahead)
         is_before = token.has(*MODIFIERS) and not after.has("relation")
+        is_before &= not after.text.startswith(_PREPOSITIONS)  # "in the rain at night"
         return is_before and after.has(*_HEADS, "field")
 
     def _is_compound(self, article: str, first: int) -> bool:

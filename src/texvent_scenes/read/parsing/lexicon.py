@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
-from itertools import product
+from itertools import product, repeat
 from types import MappingProxyType
 from typing import Any, TypeAlias
 
@@ -40,6 +40,8 @@ def word_set(table: str, key: str) -> frozenset[str]:
 def list_forms(phrase: str) -> list[tuple[str, str]]:
     """Forms of a phrase that begins with a verb, and the name of each: "walks in"."""
     base, _, rest = phrase.partition(" ")
+    if " ".join((base, *rest.split()[:1])) in word_set("things", "compound_verbs"):
+        return [(f"{base} {words}", form) for words, form in list_forms(rest)]  # "ice skating"
     forms = list_verb_forms(base, word_table("irregular").get(base, ""))
     return [(f"{word} {rest}".strip(), form) for word, form in forms]
 
@@ -259,9 +261,9 @@ def _list_words() -> Iterator[tuple[str, Sense]]:
     for field, units in word_table("units").items():
         yield from ((unit, Sense("unit", (field, each))) for unit, each in units.items())
     for path, phrases in _walk(word_table("senses")):
-        yield from ((phrase, _sense_of(*path)) for phrase in phrases)
+        yield from zip(phrases, repeat(_sense_of(*path)))
     for row in word_table("acting"):
-        yield from ((phrase, _sense_of(*row["sense"])) for phrase in _list_acting(row))
+        yield from zip(_list_acting(row), repeat(_sense_of(*row["sense"])))
 
 
 def _list_acting(row: Mapping[str, Any]) -> Iterator[str]:

@@ -376,7 +376,8 @@ def _seat_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
 
 def rest_in(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
     """As `rest_on`, in a container so that its top looks out, and unseen in what is closed."""
-    if target.noun.name in nouns_with("closed") | nouns_with("passage"):
+    open_below = nouns_with("passage") | nouns_with("stood in")
+    if target.noun.name in nouns_with("closed") | open_below:
         if target.plan.motion.is_moving:
             group.carrier = target
         low = 0.05 * target.models[0].height if target.noun.name in nouns_with("closed") else 0.0

@@ -48,8 +48,10 @@ _WALL_SHARES = (-0.1, 0.1, -0.3, 0.3)
 _LEAST_STEPS, _FINER = 4, 25
 """Instants of an object's way that must be free, and how many times as many at most."""
 _BEFORE_M, _MOST_ITEMS = 4.0, 90
-_ON_BRIDGE_M = 0.5
 """Start of scenery before a route's beginning, and greatest number of pieces."""
+_ON_BRIDGE_M, _BEYOND = 0.5, 1.3
+"""Height of a train from which on no rails lie on the ground below it, m; distance of what is far
+beyond a subject that moves, in camera distances."""
 
 
 def scatter(
@@ -109,6 +111,7 @@ class _Scatterer:
         self._view, self._nouns, self._rng = view, nouns, rng
         self._yaw = actors[0].track.at(0.0).yaw if actors else 0.0
         """Heading of the first object."""
+        self._has_mover = any(one.is_mover for one in actors)
         on_rails = (one for one in actors if trait_value("zone", one.noun.name) == "rails")
         self._train = next(on_rails, None)
         wheeled = (one for one in actors if one.noun.name in nouns_with("takes off"))
@@ -247,7 +250,9 @@ class _Scatterer:
             low, high = (float(camera.position[2]) / math.tan(one) for one in _edges(camera))
             return float(self._rng.uniform(high, low))
         if rule.where == "far":
-            return float(self._rng.uniform(near, far))
+            is_beyond = near >= _FAR_SHORE_M and self._has_mover
+            more = max(1.0, _BEYOND * self._view.distance_m / near) if is_beyond else 1.0
+            return more * float(self._rng.uniform(near, far))
         pitch = math.asin(min(max(-float(camera.rotation[2, 2]), -1.0), 1.0))
         flat = self._view.distance_m * math.cos(pitch)
         return flat * (1.0 + float(self._rng.uniform(near, far)))

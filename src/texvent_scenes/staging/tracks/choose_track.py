@@ -28,7 +28,7 @@ from texvent_scenes.staging.tracks.phases import (
     oscillations,
 )
 from texvent_scenes.staging.tracks.track import TO_CAMERA, Term, Track, ballistic, steady
-from texvent_scenes.staging.tracks.turning import CLOCKWISE, spin_sign, work_sign
+from texvent_scenes.staging.tracks.turning import CLOCKWISE, axle_of, spin_sign, work_sign
 
 _STAYING = frozenset({"stand", "sit", "lie", "hang", *ANIMAL_ACTIVITIES})
 """Activities in place of bodies without hands."""
@@ -129,7 +129,8 @@ def _go_straight(plan: MotionPlan, model: Model, home: Vector, phase: float) -> 
     kind, half_m = plan.motion.kind, 0.5 * plan.duration_s * plan.speed_m_s
     risen_m = 0.0 if plan.is_facing else plan.climb * half_m  # a shape goes up from the ground
     start = ahead(home, plan.yaw, -half_m, home[2] - risen_m)
-    line = steady(start, plan.yaw, plan.speed_m_s, climb=plan.climb, activity=activity_of(kind))
+    doing = f"{activity_of(kind)} and {plan.act}" if plan.act else activity_of(kind)
+    line = steady(start, plan.yaw, plan.speed_m_s, climb=plan.climb, activity=doing)
     waves = oscillations(plan.motion, model, phase)
     return replace(line, terms=waves, radius_m=plan.radius_m, is_facing=plan.is_facing)
 
@@ -149,7 +150,7 @@ def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) ->
         laid = steady(home, plan.yaw, activity="stand")
         return replace(laid, terms=waves, pivot_m=0.5 * model.height)
     rest = replace(steady(home, plan.yaw, activity=activity), terms=waves)
-    return replace(rest, pivot_m=0.5 * model.height) if plan.is_facing else rest
+    return replace(rest, pivot_m=axle_of(model, "roll").height_m) if plan.is_facing else rest
 
 
 def _spin(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Track:
@@ -164,7 +165,7 @@ def _spin(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Track:
         lift = spin_lift(model)
     yaw = TO_CAMERA if plan.is_facing else plan.yaw
     rest = steady(_raised(home, lift), yaw)
-    return replace(rest, terms=(turn,), pivot_m=0.5 * model.height)
+    return replace(rest, terms=(turn,), pivot_m=axle_of(model, plan.spin_axis).height_m)
 
 
 def _gain(plan: MotionPlan) -> float:

@@ -7,6 +7,7 @@ sharp corner end: each leg is its speed times its duration long, along its own d
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -18,6 +19,9 @@ _USUAL_S, _RAMP = 0.4, 0.35
 _MOST, _LEAST_DEG, _SHARE = 3.0, 3.0, 0.9
 """Most speed in a corner, as a multiple of that of the legs; least turn; and the most of a leg that
 a corner takes."""
+_REVERSAL_S, _LEAST_S, _BEFORE = 0.8, 0.05, 1.2
+"""Duration of a turn on the spot; least duration of a change, s; and its most, as a multiple of the
+time in which the speed before holds."""
 
 
 def corner(before: Key, last: Key, turn_rad: float, span_s: float, least_m: float) -> list[Key]:
@@ -37,7 +41,7 @@ def corner(before: Key, last: Key, turn_rad: float, span_s: float, least_m: floa
     if min(speeds) <= 0.0 or abs(turn_rad) < math.radians(_LEAST_DEG):
         return []
     if abs(turn_rad) > math.radians(180.0 - _LEAST_DEG):
-        return []
+        return [] if least_m else _reverse(before, last, turn_rad, span_s)
     room_s = 2.0 * _SHARE * min(before.duration_s - before.ramp_s, span_s)
     tight_s = abs(turn_rad) * least_m / (min(speeds) * (1.0 - _RAMP))
     whole_s = max(min(_USUAL_S, room_s), tight_s)
@@ -50,6 +54,60 @@ def corner(before: Key, last: Key, turn_rad: float, span_s: float, least_m: floa
     turning = [replace(one, activity=last.activity) for one in keys]
     shorter = replace(before, duration_s=before.duration_s - 0.5 * whole_s)
     return [shorter, *turning, straight]
+
+
+def _reverse(before: Key, last: Key, turn_rad: float, span_s: float) -> list[Key]:
+    """Keys of who turns round on the spot and goes back: at rest about the time that is told."""
+    room_s = _SHARE * min(before.duration_s - before.ramp_s, span_s)
+    whole_s = min(_REVERSAL_S, room_s)
+    if whole_s < _LEAST_S:
+        return []
+    easing_s, turning_s = 0.3 * whole_s, 0.4 * whole_s
+    one, other = before.speed_m_s, last.speed_m_s
+    early_s = 0.5 * easing_s + (easing_s + turning_s) * other / (one + other)
+    rest = Key(easing_s, ramp_s=easing_s, activity=last.activity)
+    half = replace(rest, duration_s=0.5 * turning_s, ramp_s=0.5 * turning_s)
+    return [
+        replace(before, duration_s=before.duration_s - early_s),
+        rest,
+        replace(half, turn_rad_s=2.0 * turn_rad / turning_s),
+        half,
+        replace(rest, speed_m_s=other),
+        replace(last, duration_s=span_s - (whole_s - early_s), ramp_s=0.0, turn_rad_s=0.0),
+    ]
+
+
+def centre_change(last: Sequence[Key], key: Key, *, is_act: bool) -> tuple[list[Key], Key]:
+    """The last keys and the next one, half of whose change of speed comes before its time.
+
+    So a body is where legs without easing end: what starts or stops at a time and a place that
+    are told has gone as far as if it did so at once.
+
+    Args:
+        last: one or two keys, of which the last is shortened.
+        key: the next one, on a straight line too.
+        is_act: whether something is done in it that begins at its time, when half of the speed is
+            gone.
+    """
+    *before, one = last
+    is_plain = all(
+        not (each.turn_rad_s or each.hop_m or each.swing_hz) and each.restitution is None
+        for each in (one, key)
+    )
+    if one.rates == key.rates or not is_plain or one.pitch_rad != key.pitch_rad:
+        return [*last], key
+    is_even = bool(before) and before[-1].rates == one.rates
+    room_s = one.duration_s if is_even else one.duration_s - one.ramp_s
+    ramp_s = min(key.ramp_s, _BEFORE * room_s, key.duration_s)
+    if ramp_s < min(_LEAST_S, key.ramp_s):
+        return [*last], key
+    shorter = replace(one, duration_s=one.duration_s - 0.5 * ramp_s)
+    if key.speed_m_s or key.climb_m_s or not is_act:
+        longer = replace(key, duration_s=key.duration_s + 0.5 * ramp_s, ramp_s=ramp_s)
+        return [*before, shorter], longer
+    half = replace(one, duration_s=0.5 * ramp_s, ramp_s=0.5 * ramp_s,
+                   speed_m_s=0.5 * one.speed_m_s, climb_m_s=0.5 * one.climb_m_s)  # fmt: skip
+    return [*before, shorter, half], replace(key, ramp_s=0.5 * ramp_s)
 
 
 def _solve(whole_s: float, turn_rad: float, speeds: tuple[float, float]) -> list[Key]:

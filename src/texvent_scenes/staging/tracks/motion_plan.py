@@ -24,10 +24,12 @@ from texvent_scenes.staging.tracks.phases import (
     GOING,
     PATH_KINDS,
     YAWS,
+    done_on_the_way,
     needs_steering,
     usual_speed,
 )
 from texvent_scenes.staging.tracks.track import Track
+from texvent_scenes.staging.tracks.turning import axle_of
 
 _OF_CAMERA, _LOOMING = ("towards", "away"), 45.0
 """Directions in depth; most way of what flies so in a clip, in its own sizes: farther off it is a
@@ -53,6 +55,8 @@ class MotionPlan:
     """Its path about (0, 0), where it does more than one simple movement."""
     gesture: str | None = None
     """Activity of a person or a hand in place: a name of `models.activities`."""
+    act: str = ""
+    """Activity of the arms all along its way."""
     radius_m: float = 0.0
     """Rolling radius; 0 = it goes on wheels or feet."""
     spin_axis: str = "yaw"
@@ -109,7 +113,8 @@ def plan_motion(
         start_m: height above the ground at time 0, if it is said.
         heading_deg: heading at time 0, if it is said, degrees.
     """
-    motions = [_as_it_does(noun, one, start_m or 0.0) for one in motions]
+    act = done_on_the_way(motions, noun)
+    motions = [_as_it_does(noun, one, start_m or 0.0) for one in motions[: 1 if act else None]]
     is_tall = noun.habitat == "fixed" and model.height > _TALL * max(model.length, model.width)
     if is_tall and motions[0].kind == "fall":
         motions = [replace(one, kind="topple") if one.kind == "lie" else one for one in motions]
@@ -123,12 +128,14 @@ def plan_motion(
         size_m = max(model.length, model.width, model.height)
         speed = min(speed, _LOOMING * size_m / duration_s)
     is_wheeled = noun.motion == "drive" or getattr(model, "is_wheeled", False)
-    is_facing = _faces_camera(noun, model, motion)
+    is_facing = _faces_camera(
+        noun, model, next((one for one in motions if one.kind != "stand"), motion)
+    )
     axle = "pitch" if noun.name in nouns_with("has an axle") else "yaw"
     plan = MotionPlan(
         motion, yaw, speed, duration_s, is_facing=is_facing, start_m=start_m,
-        radius_m=0.5 * model.height if motion.kind == "roll" and not is_wheeled else 0.0,
-        spin_axis="roll" if is_facing else axle, is_laid=is_tall and motion.kind == "lie",
+        radius_m=_rolling_radius(model) if motion.kind == "roll" and not is_wheeled else 0.0,
+        spin_axis="roll" if is_facing else axle, is_laid=is_tall and motion.kind == "lie", act=act,
     )  # fmt: skip
     if needs_steering(motions) or (motion.kind == "slide" and noun.motion == "drive"):
         path = build_path(
@@ -138,6 +145,11 @@ def plan_motion(
         return replace(plan, yaw=path.yaw, path=path)
     pace = 1.0 if motion.speed_m_s is not None else motion.pace
     return replace(plan, speed_m_s=speed * pace, gesture=choose_gesture(noun, motion))
+
+
+def _rolling_radius(model: Model) -> float:
+    """Radius at which a body rolls, m: its middle is so high above the ground."""
+    return axle_of(model, "pitch").height_m
 
 
 def raised(plan: MotionPlan, by_m: float) -> MotionPlan:

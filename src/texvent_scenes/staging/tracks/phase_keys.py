@@ -18,7 +18,7 @@ from texvent_scenes.models.protocol import Model, Noun, Pose
 from texvent_scenes.models.shapes import bounds
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.spec.scene import Motion
-from texvent_scenes.staging.tracks.corners import corner
+from texvent_scenes.staging.tracks.corners import centre_change, corner
 from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, HOP_PAUSE_S, Key, flight_s
 from texvent_scenes.staging.tracks.phases import (
     PATH_KINDS,
@@ -35,7 +35,7 @@ from texvent_scenes.staging.tracks.phases import (
     usual_speed,
 )
 from texvent_scenes.staging.tracks.track import Term, Track, centred
-from texvent_scenes.staging.tracks.turning import CLOCKWISE, spin_sign
+from texvent_scenes.staging.tracks.turning import CLOCKWISE, axle_of, spin_sign
 
 NO_FLOOR_M = -1e4
 """Floor of a path that is not yet placed above the ground, m."""
@@ -67,6 +67,8 @@ _LIFT_SHARE, _LANDING_SHARE = 0.3, 0.65
 """Shares of a phase after which wheels leave a runway, or meet it."""
 _OF_CAMERA = ("towards", "away")
 """Directions to which something turns that say where it heads then, and not to which side."""
+_AT_REST = frozenset({"sit", "lie"})
+"""What bodies with legs do at rest, beside acts of their own."""
 _REACHED = {"sit down": "sit", "stand up": "stand"}
 """Getting up and down after something else: the posture that the body goes over to."""
 
@@ -128,7 +130,8 @@ def falls_sideways(noun: Noun) -> bool:
 
 def spin_lift(model: Model) -> float:
     """Height at which the corners of a flat shape that turns in the picture are above ground, m."""
-    return 0.5 * (math.hypot(model.width, model.height) - model.height)
+    axle = axle_of(model, "roll")
+    return max(axle.reach_m - axle.height_m, 0.0)
 
 
 def fallen_m(model: Model, duration_s: float) -> float:
@@ -184,6 +187,8 @@ class _KeyBuilder:
         self._is_mobile = noun.speed_m_s > 0.0 and noun.habitat != "fixed"
         self._height = start_m or 0.0
         self._heading = yaw
+        self._is_beginning = True
+        self._acts = ACTIVITIES.keys() if noun.name in PERSON_NOUNS else noun.acts | _AT_REST
         self.keys = [Key(0.0)]
         self.terms: list[Term] = []
         self.pivot_m = self.edge_m = 0.0
@@ -193,6 +198,7 @@ class _KeyBuilder:
     def add(self, phase: Phase) -> None:
         """Append the keys of one phase."""
         motion, span = phase.motion, phase.duration_s
+        self._is_beginning = True
         if motion.direction in SWINGS and motion.kind in STEERED:
             key = to_and_fro(motion, abs(self._speed(motion)), span, self._model)
             self._start(key.speed_m_s)
@@ -226,7 +232,7 @@ class _KeyBuilder:
         rate *= spin_sign(phase.motion.direction, axis, self._heading)
         times = {"begin_s": begin_s, "end_s": phase.end_s}
         self.terms.append(Term(axis, drift=rate, offset=-rate * begin_s, **times))
-        self.pivot_m = 0.5 * model.height
+        self.pivot_m = axle_of(model, axis).height_m
         if axis == "roll":  # its corners stay above the ground
             self.initial_height = max(self.initial_height, spin_lift(model))
         self._rest(STANDING, phase.duration_s)
@@ -245,6 +251,10 @@ class _KeyBuilder:
         span, turn, ramp = key.duration_s, key.turn_rad_s, key.ramp_s
         self._heading += turn * span + 0.5 * (before - turn) * min(ramp, span)
         self._height += key.climb_m_s * span
+        if self._is_beginning and not self._is_first:
+            is_act = key.activity != self.keys[-1].activity and key.activity in self._acts
+            self.keys[-2:], key = centre_change(self.keys[-2:], key, is_act=is_act)
+        self._is_beginning = False
         self.keys.append(key)
 
     def usual(self, motion: Motion) -> float:
@@ -324,7 +334,7 @@ class _KeyBuilder:
         keys = corner(before, last, segments[0][1], span, least_m)
         if not keys:
             return False
-        self.keys[-1] = keys[0]
+        self.keys[-1], self._is_beginning = keys[0], False
         for key in keys[1:]:
             self._append(key)
         return True

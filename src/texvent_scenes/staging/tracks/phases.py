@@ -9,7 +9,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from texvent_scenes.description import STANDING
-from texvent_scenes.models.activities import TRAVELLING
+from texvent_scenes.models.activities import (
+    DONE_SEATED,
+    ON_FOOT,
+    PERSON_NOUNS,
+    TRAVELLING,
+)
 from texvent_scenes.models.protocol import Model, Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.spec.scene import Motion
@@ -102,6 +107,14 @@ def schedule(motions: Sequence[Motion], duration_s: float) -> list[Phase]:
         for motion, begin, end in zip(motions, times, times[1:], strict=False)
     ]
     return [phase for phase in shown if phase.duration_s > 1e-6 * duration_s]
+
+
+def done_on_the_way(motions: Sequence[Motion], noun: Noun) -> str:
+    """The act of the arms that a person does all along the way: "walks, waving"; "" = none."""
+    if len(motions) != 2 or motions[1].start_s != 0.0 or noun.name not in PERSON_NOUNS:
+        return ""
+    way, act = motions
+    return act.kind if way.kind in ON_FOOT and act.kind in DONE_SEATED else ""
 
 
 def needs_steering(motions: Sequence[Motion]) -> bool:

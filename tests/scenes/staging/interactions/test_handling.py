@@ -99,7 +99,7 @@ def test_no_person_is_added_where_something_else_may_do_it(text):
     "text", ["a woman kicks a penalty", "a boy shoots hoops", "a man takes a free kick"]
 )
 def test_an_object_that_a_phrase_implies_is_there(text):
-    assert len(staged(text)[0].actors) == 2
+    assert len(staged(text)[0].actors) == 3  # with the ball and where it is sent
     assert is_right(text)
 
 
