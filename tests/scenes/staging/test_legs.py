@@ -83,6 +83,27 @@ def test_what_starts_and_stops_at_stated_times_is_where_its_legs_end(row):
     assert max(speeds) <= speed + 1e-9
 
 
+@for_every(itertools.product(("drone", "balloon", "helicopter"), ("rise", "sink"), (0.0, 0.5, 1.1),
+                             (0.4, 1.0)))  # fmt: skip
+def test_what_goes_up_or_down_at_a_stated_speed_is_as_high_as_its_legs_say(row):
+    noun, kind, start_s, speed = row
+    leg = Motion(kind, speed_m_s=speed, start_s=start_s or None)
+    motions = ((Motion("hover"),) if start_s else ()) + (
+        leg,
+        Motion("hover", start_s=start_s + 1.2),
+    )
+    one = SceneObject(noun, position_m=(0.0, 0.0), height_m=4.0, motions=motions)
+    track = place(one, start_s + 2.4)
+    first = track.at(0.0).position[2]
+    sign = 1.0 if kind == "rise" else -1.0
+    assert track.at(start_s + 1.2 + 0.35).position[2] - first == pytest.approx(
+        1.2 * sign * speed,
+        abs=0.1 + 0.08 * NOUNS[noun].build(colour=None, scale=1.0, seed=0).height,
+    )
+    half_s = start_s + 0.6
+    assert track.at(half_s).position[2] - first == pytest.approx(0.6 * sign * speed, abs=2e-3)
+
+
 STOPPING = [("dog", "run", "sit"), ("man", "walk", "wave"), ("cat", "walk", "lie"),
             ("woman", "run", "sit down")]  # fmt: skip
 

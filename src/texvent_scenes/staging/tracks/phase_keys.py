@@ -399,6 +399,8 @@ class _KeyBuilder:
         elif not is_up:
             climb = -climb if self._is_free else -min(climb, self._height / span)
         # What rises alone starts slowly and gets faster all along.
+        if self._is_first and motion.speed_m_s is not None:
+            self.keys = [Key(0.0, climb_m_s=climb)]
         is_slow = is_up and self._is_single and motion.speed_m_s is None
         ramp, factor = (span, 2.0) if is_slow else (min(0.6, 0.6 * span), 1.0)
         self._append(Key(span, climb_m_s=factor * climb, ramp_s=ramp))
