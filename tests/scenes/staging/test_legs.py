@@ -12,7 +12,7 @@ from texvent_scenes.defaults import complete
 from texvent_scenes.description import to_description
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.scene_input import describe_scene
-from texvent_scenes.spec.scene import Motion, Scene, SceneObject
+from texvent_scenes.spec.scene import Motion, Relation, Scene, SceneObject
 from texvent_scenes.staging.idle_fields import TURNS
 from texvent_scenes.staging.placement.object_placement import ObjectPlacer
 from texvent_scenes.staging.tracks.phases import YAWS
@@ -155,3 +155,27 @@ def test_a_turn_that_goes_nowhere_is_refused(row):
         describe_scene(Scene(objects=(one,)), NOUNS)
     for other in TURNS[:4]:
         describe_scene(Scene(objects=(SceneObject(noun, motions=(Motion("turn", other),)),)), NOUNS)
+
+
+@for_every(
+    itertools.product(("car", "van", "bicycle", "mobile robot"), (4.0, 6.0, 9.0), (0.8, 1.0, 2.0))
+)
+def test_what_is_steered_heads_where_its_next_leg_leads_in_the_end_if_its_radius_allows(row):
+    noun, speed, leg_s = row
+    motions = legs_of("drive", ("right", "away"), (speed, speed), leg_s)
+    track = place(SceneObject(noun, position_m=(0.0, 0.0), motions=motions), 2.0 * leg_s)
+    length = NOUNS[noun].build(colour=None, scale=1.0, seed=0).length
+    if speed * (0.95 * leg_s - 0.4) < 0.5 * math.pi * 0.9 * length:
+        return
+    assert math.degrees(track.at(2.0 * leg_s).yaw) == pytest.approx(90.0, abs=2.0)
+
+
+@for_every(itertools.product(("tree", "lamp", "box", "car"), ("bench", "man", "dog"), (3.0, 6.0)))
+def test_what_is_between_things_at_stated_places_is_in_their_middle(row):
+    noun, subject, apart_m = row
+    ends = [SceneObject(noun, id=name, position_m=(x, 8.0), motions=(Motion("stand"),))
+            for name, x in (("one", -apart_m), ("other", apart_m))]  # fmt: skip
+    own = SceneObject(subject, relations=(Relation("between", ("one", "other")),))
+    description = complete(to_description(Scene(objects=(*ends, own))), NOUNS)
+    placer = ObjectPlacer(description, NOUNS, seed=3, duration_s=2.0, level_m=LEVELS)
+    assert placer.place_all()[2].track.at(0.0).position[:2] == pytest.approx((0.0, 8.0), abs=0.05)
