@@ -66,12 +66,10 @@ def find_unseen_place(
     """
     cameras = [scene.camera(time_s) for time_s in times]
     is_veiled = all(scene.environment(time_s).fog_distance < _CLEAR_M for time_s in times)
-    is_lost = is_veiled or not any(map(has_horizon, cameras))
     for one in said.backdrops:
-        if not is_lost and _shows_backdrop(scene, one, cameras):
-            continue
-        yield Violation("backdrops", "", f"the {one} in the distance")
-        yield Violation("place", one, "")
+        if is_veiled or not _shows_backdrop(scene, one, cameras):
+            yield Violation("backdrops", "", f"the {one} in the distance")
+            yield Violation("place", one, "")
     for name in _list_far(scene, said) if is_veiled else ():
         yield Violation("place", name, f"the {name}: fog hides it")
     crossings = scene.animated_environment.base.road_crossings
@@ -87,11 +85,11 @@ def find_unseen_place(
         if said.clouds:
             yield Violation("clouds", "", "clouds: the sky is out of view")
         yield Violation("place", "sky", "" if said.clouds else "the sky: it is out of view")
-    if scene.place.has_shore and said.name and not any(_has_shore(scene, *one) for one in instants):
+    is_shore = scene.place.has_shore and bool(said.name)
+    if is_shore and not any(_has_shore(scene, *one) for one in instants):
         kind = "water" if _has_water_name(scene) else "land"
         yield Violation("place", str(said.name), f"the {said.name}: its {kind} is out of view")
-        if kind == "water":  # whatever the water is called
-            yield Violation("place", "sea", "")
+        yield from [Violation("place", "sea", "")] * (kind == "water")  # whatever it is called
     has_ground = scene.place.ground not in (Ground.NONE, Ground.UNDERWATER, Ground.FLOOR)
     has_ground &= is_bare and bool(said.name) and not scene.place.is_backdrop
     if has_ground and not any(_share_of_ground(scene, *one) >= _LEAST_SHARE for one in instants):
@@ -99,7 +97,9 @@ def find_unseen_place(
 
 
 def _shows_backdrop(scene: ComposedScene, name: str, cameras: Sequence[PosedCamera]) -> bool:
-    """Whether enough of what tells a backdrop is in the image."""
+    """Whether the horizon is in the image, and enough of what tells a backdrop."""
+    if not any(map(has_horizon, cameras)):
+        return False
     rules = PLACES[SEEN_FROM_AFAR.get(name, name)].scenery
     nouns = {one.noun for one in rules if one.where == "far"} or {one.noun for one in rules}
     own = [one for one in scene.scenery if one.rule.noun in nouns]

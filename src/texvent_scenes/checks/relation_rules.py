@@ -134,7 +134,7 @@ def _is_on(one: BodyBoxes, other: BodyBoxes) -> _Flags:
     gone = (other.middle - other.middle[0])[:, None]
     parts = other.parts[None] + gone[:, :, None] if are_still(other) else _own_box(other)
     bears = (parts[..., 1, 2] >= low) & (parts[..., 0, 2] <= high)
-    is_larger = one.size > other.size  # such as a person on a chair, a bird on a fence
+    is_larger = np.asarray(one.size > other.size)  # such as a person on a chair, a bird on a fence
     reach = np.where(is_larger, 0.1 * other.size, _FOOT * one.size)[:, :2]
     found = np.zeros((2, len(tall)))
     back = np.where(
@@ -150,7 +150,7 @@ def _is_on(one: BodyBoxes, other: BodyBoxes) -> _Flags:
 def _is_on_tip(one: BodyBoxes, other: BodyBoxes) -> _Flags:
     """Whether it is on the other, and so narrow that its foot does not stand out over the tip."""
     is_narrow = one.size[:, :2].max(axis=1) <= _TIP * other.size[:, :2].min(axis=1)
-    return _is_on(one, other) & is_narrow
+    return np.asarray(_is_on(one, other) & is_narrow)
 
 
 def _is_on_face(one: BodyBoxes, other: BodyBoxes) -> _Flags:

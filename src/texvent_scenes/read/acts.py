@@ -51,14 +51,11 @@ def perform(
         return None  # what it is done to is not known
     draft.show(verb)
     act = _stand_on(draft, act, verb, objects)
-    if act.kind == "rise" and all(draft.noun(one).habitat == "fixed" for one in subjects):
-        act = replace(act, kind="stand")  # "mountains rise in the distance"
+    act = _stay_or_go(draft, act, subjects)
     if act.aims:
         return _send(draft, act, verb, subjects, objects)
     if act.brings not in ("", EGO) and not objects:
         objects = [draft.add(act.brings)]
-    if act.end_pace == 0.0 and act.kind == "stand" and can_arrive(draft, subjects):
-        act = replace(act, kind="move", is_near=False)  # it goes until it stops
     is_change = act.kind == "stand" or verb.text.endswith(" down")  # is drawn after another
     if act.is_near and not (is_change and draft.things[subjects[0]]["motions"]):
         draft.mark(verb, act.kind or act.relation or "")
@@ -75,6 +72,15 @@ def perform(
     for index in subjects if act.relation is not None else ():
         _relate_act(draft, act.relation or "", verb, index, objects)
     return list(objects if act.object and objects else subjects)
+
+
+def _stay_or_go(draft: SceneDraft, act: VerbSense, subjects: Indices) -> VerbSense:
+    """The sense of what only stands there, or of what goes until it stops."""
+    if act.kind == "rise" and all(draft.noun(one).habitat == "fixed" for one in subjects):
+        return replace(act, kind="stand")  # "mountains rise in the distance"
+    if act.end_pace == 0.0 and act.kind == "stand" and can_arrive(draft, subjects):
+        return replace(act, kind="move", is_near=False)
+    return act
 
 
 def _send(

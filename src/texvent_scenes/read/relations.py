@@ -33,24 +33,9 @@ _HANDED = {"into": "in", "in": "in", "on": "on", "to": "on", "above": "on"}
 def relate_one(draft: SceneDraft, kind: str, index: int, targets: Indices) -> bool:
     """Relate a thing to others as far as scenes can; whether it is so."""
     thing, noun = draft.things[index], draft.things[targets[0]]["noun"]
-    if kind == "with" and _has_other_tool(thing, noun):
-        return False  # "waters flowers with a hose", and has a can
-    if kind == "with" and len(parts := _part_worn(draft, targets)) > 1:
-        return all([relate_one(draft, kind, index, each) for each in parts])
-    if kind == "with" and thing["noun"] in trait_values("circled on"):
-        return all(
-            [
-                draft.relate(one, _choose_relation(draft, "on", one, index), [index])
-                for one in targets
-            ]
-        )
-    if kind == "with":
-        if borne := _bear(draft, index, targets):
-            return all([draft.relate(one, borne, [index]) for one in targets])
-        if noun in nouns_with("towering"):
-            return True  # it stands in the distance
-        if not any(_goes_by_itself(draft, one) for one in (index, *targets)):
-            return False  # "a vase with roses", "a disc with a dot"
+    settled = _relate_with(draft, index, targets) if kind == "with" else None
+    if settled is not None:
+        return settled
     if kind == "on" and _bears_nobody(draft, index, noun, targets):
         return False
     targets = [ridden_by(draft, one, kind) for one in targets]  # "behind the rider"
@@ -67,6 +52,25 @@ def relate_one(draft: SceneDraft, kind: str, index: int, targets: Indices) -> bo
     for one in small if tops and kind in SPACED and is_still else ():
         draft.relate(one, "on", tops[0])  # "a cup on a table beside a book"
     return bool(kind) and draft.relate(ridden_by(draft, index, kind), kind, targets)
+
+
+def _relate_with(draft: SceneDraft, index: int, targets: Indices) -> bool | None:
+    """Relate a thing to what it has on, in or about it; None where they are beside each other."""
+    thing, noun = draft.things[index], draft.things[targets[0]]["noun"]
+    if _has_other_tool(thing, noun):
+        return False  # "waters flowers with a hose", and has a can
+    if len(parts := _part_worn(draft, targets)) > 1:
+        return all([relate_one(draft, "with", index, each) for each in parts])
+    if thing["noun"] in trait_values("circled on"):
+        kinds = [_choose_relation(draft, "on", one, index) for one in targets]
+        return all([draft.relate(one, kind, [index])
+                    for one, kind in zip(targets, kinds, strict=True)])  # fmt: skip
+    if borne := _bear(draft, index, targets):
+        return all([draft.relate(one, borne, [index]) for one in targets])
+    if noun in nouns_with("towering"):
+        return True  # it stands in the distance
+    is_still = not any(_goes_by_itself(draft, one) for one in (index, *targets))
+    return False if is_still else None  # "a vase with roses", "a disc with a dot"
 
 
 def bear_on(draft: SceneDraft, verb: Token, index: int, objects: Indices) -> None:

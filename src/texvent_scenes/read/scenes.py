@@ -148,9 +148,14 @@ def _apply_to_things(draft: SceneDraft, clause: Clause) -> None:
         lose_ways(draft, clause.after, has_subject=is_known)
     for index in subjects if clause.about == "where" and where else ():
         relate_one(draft, draft.place_by(where[0]), index, where)
+    _await(draft, clause, [one for one in subjects if one >= known])
+
+
+def _await(draft: SceneDraft, clause: Clause, subjects: list[int]) -> None:
+    """Have new subjects stand until others have done what was said before: "then a dog runs"."""
     phases = draft.phases
-    if clause.about == "then" or (phases and _is_joined(draft, clause)):  # others wait until then
-        for motions in (draft.things[n]["motions"] for n in subjects if n >= known):
+    if clause.about == "then" or (phases and _is_joined(draft, clause)):
+        for motions in (draft.things[one]["motions"] for one in subjects):
             motions[:0] = [{"kind": "stand"} for _ in range(phases if motions else 0)]
 
 

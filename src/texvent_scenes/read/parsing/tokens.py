@@ -272,18 +272,22 @@ def _read_phrase(
             found = tuple(one for one in found if not (is_thing and one.kind == "noun"))
         if found:
             length, senses = end + 1 - at, found
-    is_number = length == 1 and words[at].lstrip("-−.")[:1].isdecimal()
-    if length == 1 and (stated := read_stated(words, at)):
-        return _as_senses(stated)
-    if is_number:
-        return _as_senses(read_height(words, at) or read_quantity(words, at, lexicon))
-    lead = 1 + (words[at].casefold() == "a")  # "at a constant 600 rpm"
+    figure = _read_figure(words, at, lexicon) if length == 1 else None
+    return (length, senses) if figure is None else _as_senses(figure)
+
+
+def _read_figure(words: Sequence[str], at: int, lexicon: Lexicon) -> Found | None:
+    """A stated start or height, a quantity, or one that stays: "at a constant 600 rpm"."""
+    if stated := read_stated(words, at):
+        return stated
+    if words[at].lstrip("-−.")[:1].isdecimal():
+        return read_height(words, at) or read_quantity(words, at, lexicon)
+    lead = 1 + (words[at].casefold() == "a")
     before, *rest = (*words[at : at + lead][-1:], *words[at + lead :])
-    if length == 1 and rest and before.casefold() in word_set("senses", "steady"):
-        further, said = read_quantity(rest, 0, lexicon)
-        if further > 1 and said:
-            return _as_senses((lead + further, said))
-    return length, senses
+    if not rest or before.casefold() not in word_set("senses", "steady"):
+        return None
+    further, said = read_quantity(rest, 0, lexicon)
+    return (lead + further, said) if further > 1 and said else None
 
 
 def _is_shade(words: Sequence[str], end: int, lexicon: Lexicon) -> bool:
