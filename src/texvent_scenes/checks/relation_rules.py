@@ -135,10 +135,10 @@ def _is_on(one: BodyBoxes, other: BodyBoxes) -> _Flags:
     parts = other.parts[None] + gone[:, :, None] if are_still(other) else _own_box(other)
     bears = (parts[..., 1, 2] >= low) & (parts[..., 0, 2] <= high)
     is_larger = np.asarray(one.size > other.size)  # such as a person on a chair, a bird on a fence
-    reach = np.where(is_larger, 0.1 * other.size, _FOOT * one.size)[:, :2]
+    reach = np.asarray(np.where(is_larger, 0.1 * other.size, _FOOT * one.size))[:, :2]
     found = np.zeros((2, len(tall)))
     back = np.where(
-        is_larger.any(axis=1)[:, None], one.ahead * _BEHIND_KNEES * one.size[:, :2], 0.0
+        np.any(is_larger, axis=1)[:, None], one.ahead * _BEHIND_KNEES * one.size[:, :2], 0.0
     )
     for way, (number, share) in itertools.product(_AROUND, enumerate((0.0, 1.0))):
         spot = (one.middle[:, :2] + way * reach - share * back)[:, None]

@@ -33,11 +33,11 @@ _HANDED = {"into": "in", "in": "in", "on": "on", "to": "on", "above": "on"}
 def relate_one(draft: SceneDraft, kind: str, index: int, targets: Indices) -> bool:
     """Relate a thing to others as far as scenes can; whether it is so."""
     thing, noun = draft.things[index], draft.things[targets[0]]["noun"]
+    if _is_refused(draft, kind, index, targets):
+        return False
     settled = _relate_with(draft, index, targets) if kind == "with" else None
     if settled is not None:
         return settled
-    if kind == "on" and _bears_nobody(draft, index, noun, targets):
-        return False
     targets = [ridden_by(draft, one, kind) for one in targets]  # "behind the rider"
     used = _use(thing, noun) if kind in ("in", "into", "from", "on", "off") else ""
     kind = used or _choose_relation(draft, kind, index, targets[0])
@@ -57,8 +57,6 @@ def relate_one(draft: SceneDraft, kind: str, index: int, targets: Indices) -> bo
 def _relate_with(draft: SceneDraft, index: int, targets: Indices) -> bool | None:
     """Relate a thing to what it has on, in or about it; None where they are beside each other."""
     thing, noun = draft.things[index], draft.things[targets[0]]["noun"]
-    if _has_other_tool(thing, noun):
-        return False  # "waters flowers with a hose", and has a can
     if len(parts := _part_worn(draft, targets)) > 1:
         return all([relate_one(draft, "with", index, each) for each in parts])
     if thing["noun"] in trait_values("circled on"):
@@ -174,6 +172,14 @@ def _bear(draft: SceneDraft, index: int, targets: Indices) -> str:
         return ""
     is_put = bearer in word_set("things", "laden") and first not in nouns_with("seat")
     return "on" if is_put else "in" if bearer in word_set("things", "vessels") else ""
+
+
+def _is_refused(draft: SceneDraft, kind: str, index: int, targets: Indices) -> bool:
+    """Whether nobody has or is on a thing so: "waters flowers with a hose", from a can."""
+    noun = draft.things[targets[0]]["noun"]
+    if kind == "with":
+        return _has_other_tool(draft.things[index], noun)
+    return kind == "on" and _bears_nobody(draft, index, noun, targets)
 
 
 def _bears_nobody(draft: SceneDraft, index: int, noun: str, targets: Indices) -> bool:
