@@ -50,8 +50,6 @@ def perform(
         return None  # what it is done to is not known
     draft.show(verb)
     act = _stand_on(draft, act, verb, objects)
-    if act.kind == "rise" and all(draft.noun(one).habitat == "fixed" for one in subjects):
-        act = replace(act, kind="stand")  # "mountains rise in the distance"
     if act.aims:
         return _send(draft, act, verb, subjects, objects)
     if act.brings not in ("", EGO) and not objects:
@@ -148,6 +146,8 @@ def _choose_act(
         return act  # "a broom sweeping": it does not go
     act = next((one for one in acts if draft.fits(one, subjects, objects, has_object)), None)
     act = act or _act_as_person(draft, acts, subjects, objects, has_object)
+    if act and act.kind == "rise" and all(draft.noun(n).habitat == "fixed" for n in subjects):
+        act = replace(act, kind="stand")  # "mountains rise in the distance"
     is_sent = act is None and not has_object and _are_sent(draft, verb, subjects)
     return VerbSense(kind="throw") if is_sent else act
 
