@@ -123,9 +123,8 @@ def find_violations(
     passing = {one.subject for one in description.relations if one.kind in ("past", "overtake")}
     led = {target for one in description.relations for target in one.targets}
     for index, (thing, own) in enumerate(zip(description.objects, copies, strict=True)):
-        side = "" if index in passing else _list_side(thing, own)
-        if side:
-            yield Violation("placement", str(thing.placement), f"{names[index]} {side}")
+        if index not in passing and (part := _list_side(thing, own)):
+            yield Violation("placement", str(thing.placement), f"{names[index]} {part}")
         motion = thing.motion if len(thing.motions) == 1 and index not in led else None
         if own and motion and not any(goes_so(one, motion) for one in own):
             line = f"{names[index]} going {motion.direction}"

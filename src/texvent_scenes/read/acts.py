@@ -13,6 +13,7 @@ from texvent_scenes.models.activities import (
     DONE_SEATED,
     HAND_NOUNS,
     ON_FOOT,
+    PERSON_NOUNS,
     TIMED,
     is_mutual,
 )
@@ -60,8 +61,9 @@ def perform(
     if act.is_near and not (is_change and draft.things[subjects[0]]["motions"]):
         draft.mark(verb, act.kind or act.relation or "")
     for index in subjects:
-        _do(draft, act, verb, index)
-        claim_act(draft, act, verb, index, objects)
+        own = _as_named(draft, act, verb, index)
+        _do(draft, own, verb, index)
+        claim_act(draft, own, verb, index, objects)
     for index in objects:
         add_motion(draft.things[index], VerbSense(kind=act.object))
         _switch(draft, act.object, index)
@@ -92,6 +94,12 @@ def _send(
         is_scored = verb.text.split()[0] in word_set("things", "scoring")
         draft.claim(verb, "taken in", "", sent if is_scored else [], goals)
     return list(subjects)
+
+
+def _as_named(draft: SceneDraft, act: VerbSense, verb: Token, index: int) -> VerbSense:
+    """An act as one of several does it who are named by theirs: "a drummer and a pianist play"."""
+    deed = draft.things[index].get("deed", "") if verb.text in _list_performing() else ""
+    return replace(act, kind=deed) if deed else act
 
 
 def _stand_on(draft: SceneDraft, act: VerbSense, verb: Token, objects: Indices) -> VerbSense:
@@ -298,7 +306,7 @@ def claim_act(draft: SceneDraft, act: VerbSense, verb: Token, index: int, object
         draft.claim(verb, "stop", "", [index])
     if act.who == "lamp" and draft.things[index]["noun"] not in word_set("things", "flames"):
         draft.claim(verb, "shine", "", [index])
-    if act.who in ("person", "hand", "animal", *draft.nouns) or act.kind == "lie":
+    if act.who in ("person", "hand", "animal", *PERSON_NOUNS) or act.kind == "lie":
         is_body = act.who != "plain" or draft.walks(index)
         draft.claim(verb, "activity" if is_body else "lie", act.kind, [index])
     elif verb.text in word_set("things", "hung"):

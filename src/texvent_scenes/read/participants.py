@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from texvent_scenes.description import SEEN
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
-from texvent_scenes.models.tables import nouns_with, trait_values
+from texvent_scenes.models.tables import trait_values
 from texvent_scenes.read.acts import begin, perform
 from texvent_scenes.read.draft.abilities import Indices, is_of_people
 from texvent_scenes.read.draft.scene_draft import SceneDraft
@@ -112,13 +112,12 @@ def find_object(
     others = [one for one in dict.fromkeys((*draft.last.acted, *nearest, *about))
               if one not in subjects
               and (one in persons) == (word in ("him", "her"))]  # fmt: skip
-    small = nouns_with("in hand or on something")
     is_taken = clause.verb is not None and any(
         one.value.relation in word_set("things", "of_bodies") for one in clause.verb.all("verb")
     )
-    lighter = [one for one in others if draft.things[one]["noun"] in small]
-    if is_taken and lighter:
-        return lighter[:1]  # "a cup on a desk, and lifts it"
+    tables = word_set("things", "tables")
+    if is_taken:  # "a cup on a desk, and lifts it"
+        others = [one for one in others if draft.things[one]["noun"] not in tables] or others
     return sorted(others, key=draft.can_go, reverse=True)[:1]  # no tree is followed
 
 

@@ -98,7 +98,9 @@ def _say_of_part(draft: SceneDraft, word: Token, part: str, owners: Indices) -> 
     is_lamp = part in word_set("things", "lamps")
     fields = dict(one.value for one in word.all("field"))
     if word.has("verb") and not word.has("noun", "field"):
-        if part in word_set("things", "stiff_parts") and not is_lamp:
+        acts = [one.value for one in word.all("verb") if one.value.who == "lamp"]
+        blinks = is_lamp and any(one.kind == "blink" for one in acts)
+        if part in word_set("things", "stiff_parts") and not blinks:
             return
         draft.claim(word, "blink" if is_lamp else "parts", "", owners)
         for one in (draft.things[n] for n in owners if part in word_set("things", "bare_parts")):

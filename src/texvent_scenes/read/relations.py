@@ -49,8 +49,7 @@ def relate_one(draft: SceneDraft, kind: str, index: int, targets: Indices) -> bo
             return all([draft.relate(one, borne, [index]) for one in targets])
         if noun in nouns_with("towering"):
             return True  # it stands in the distance
-        if not any(draft.can_go(one) and draft.noun(one).motion != "roll"
-                   for one in (index, *targets)):  # fmt: skip
+        if not any(_goes_by_itself(draft, one) for one in (index, *targets)):
             return False  # "a vase with roses", "a disc with a dot"
     if kind == "on" and _bears_nobody(draft, index, noun, targets):
         return False
@@ -260,6 +259,11 @@ def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> st
     if kind == "behind" and draft.goes_like(index, other):  # who brakes keeps no pace
         return "" if "end_pace" in thing["motions"][0] else "follow"
     return kind
+
+
+def _goes_by_itself(draft: SceneDraft, index: int) -> bool:
+    """Whether it goes otherwise than by rolling, as a ball does."""
+    return draft.can_go(index) and draft.noun(index).motion != "roll"
 
 
 def _are_going(draft: SceneDraft, *indices: int) -> bool:

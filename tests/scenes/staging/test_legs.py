@@ -12,7 +12,7 @@ from texvent_scenes.defaults import complete
 from texvent_scenes.description import to_description
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.scene_input import describe_scene
-from texvent_scenes.spec.scene import Motion, Scene, SceneObject
+from texvent_scenes.spec.scene import Motion, Relation, Scene, SceneObject
 from texvent_scenes.staging.idle_fields import TURNS
 from texvent_scenes.staging.placement.object_placement import ObjectPlacer
 from texvent_scenes.staging.tracks.phases import YAWS
@@ -83,6 +83,27 @@ def test_what_starts_and_stops_at_stated_times_is_where_its_legs_end(row):
     assert max(speeds) <= speed + 1e-9
 
 
+@for_every(itertools.product(("drone", "balloon", "helicopter"), ("rise", "sink"), (0.0, 0.5, 1.1),
+                             (0.4, 1.0)))  # fmt: skip
+def test_what_goes_up_or_down_at_a_stated_speed_is_as_high_as_its_legs_say(row):
+    noun, kind, start_s, speed = row
+    leg = Motion(kind, speed_m_s=speed, start_s=start_s or None)
+    motions = ((Motion("hover"),) if start_s else ()) + (
+        leg,
+        Motion("hover", start_s=start_s + 1.2),
+    )
+    one = SceneObject(noun, position_m=(0.0, 0.0), height_m=4.0, motions=motions)
+    track = place(one, start_s + 2.4)
+    first = track.at(0.0).position[2]
+    sign = 1.0 if kind == "rise" else -1.0
+    assert track.at(start_s + 1.2 + 0.35).position[2] - first == pytest.approx(
+        1.2 * sign * speed,
+        abs=0.1 + 0.08 * NOUNS[noun].build(colour=None, scale=1.0, seed=0).height,
+    )
+    half_s = start_s + 0.6
+    assert track.at(half_s).position[2] - first == pytest.approx(0.6 * sign * speed, abs=2e-3)
+
+
 STOPPING = [("dog", "run", "sit"), ("man", "walk", "wave"), ("cat", "walk", "lie"),
             ("woman", "run", "sit down")]  # fmt: skip
 
@@ -134,3 +155,27 @@ def test_a_turn_that_goes_nowhere_is_refused(row):
         describe_scene(Scene(objects=(one,)), NOUNS)
     for other in TURNS[:4]:
         describe_scene(Scene(objects=(SceneObject(noun, motions=(Motion("turn", other),)),)), NOUNS)
+
+
+@for_every(
+    itertools.product(("car", "van", "bicycle", "mobile robot"), (4.0, 6.0, 9.0), (0.8, 1.0, 2.0))
+)
+def test_what_is_steered_heads_where_its_next_leg_leads_in_the_end_if_its_radius_allows(row):
+    noun, speed, leg_s = row
+    motions = legs_of("drive", ("right", "away"), (speed, speed), leg_s)
+    track = place(SceneObject(noun, position_m=(0.0, 0.0), motions=motions), 2.0 * leg_s)
+    length = NOUNS[noun].build(colour=None, scale=1.0, seed=0).length
+    if speed * (0.95 * leg_s - 0.4) < 0.5 * math.pi * 0.9 * length:
+        return
+    assert math.degrees(track.at(2.0 * leg_s).yaw) == pytest.approx(90.0, abs=2.0)
+
+
+@for_every(itertools.product(("tree", "lamp", "box", "car"), ("bench", "man", "dog"), (3.0, 6.0)))
+def test_what_is_between_things_at_stated_places_is_in_their_middle(row):
+    noun, subject, apart_m = row
+    ends = [SceneObject(noun, id=name, position_m=(x, 8.0), motions=(Motion("stand"),))
+            for name, x in (("one", -apart_m), ("other", apart_m))]  # fmt: skip
+    own = SceneObject(subject, relations=(Relation("between", ("one", "other")),))
+    description = complete(to_description(Scene(objects=(*ends, own))), NOUNS)
+    placer = ObjectPlacer(description, NOUNS, seed=3, duration_s=2.0, level_m=LEVELS)
+    assert placer.place_all()[2].track.at(0.0).position[:2] == pytest.approx((0.0, 8.0), abs=0.05)

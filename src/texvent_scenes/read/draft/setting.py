@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from texvent_scenes.description import SEEN
@@ -68,24 +68,19 @@ def _pace_before(draft: SceneDraft, token: Token) -> dict[str, Any]:
     return {"pace": value}
 
 
+def _is_room_again(head: Token, place: Mapping[str, Any]) -> bool:
+    """Whether "the room" is the one that was named: "a robot in a laboratory. The room is dark"."""
+    return head.text == "room" and "name" in place and is_room(place["name"])
+
+
 def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> None:
     """As "on a snowy road", "a red sky", "a mountain road"; a second place is far off."""
     place = draft.parts["place"]
     name = head.all("place")[0].value
-    is_room_again = head.text == "room" and "name" in place and is_room(place["name"])
-    name = place["name"] if is_room_again else name
+    name = place["name"] if _is_room_again(head, place) else name
     is_it = name in ("sky", place.get("name", name))
     for token in group.modifiers:
-        field, value = token.value("field")
-        if token.text == "dark":
-            draft.parts["light"].setdefault("kind", "night")
-            if name == "plain":
-                place |= {"colour": "black", "sky": "black"}
-        elif field == "colour" and is_it and not is_room(name):
-            place["sky" if name == "sky" else "colour"] = value
-        elif not (token.has("partitive") or set_scene(draft, token)):
-            continue
-        draft.show(token)
+        _say_of_place(draft, token, name, is_it=is_it)
     if name == "plain":  # "a plain black background": alone, the word has several senses
         said = (one for one in draft.tokens if one.text == name and one.at < head.at)
         draft.show(*(one for one in said if head.at - one.at <= len(group.modifiers) + 1))
@@ -104,6 +99,20 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
         head.is_liquid and place["name"] in word_set("things", "waters")
     ):  # fmt: skip
         draft.mark(head, name if head.text in word_set("things", "stand_ins") else "shown")
+
+
+def _say_of_place(draft: SceneDraft, token: Token, name: str, *, is_it: bool) -> None:
+    """Apply an adjective of a place: a colour, "dark" or a word of light and weather."""
+    place, (field, value) = draft.parts["place"], token.value("field")
+    if token.text == "dark":
+        draft.parts["light"].setdefault("kind", "night")
+        if name == "plain":
+            place |= {"colour": "black", "sky": "black"}
+    elif field == "colour" and is_it and not is_room(name):
+        place["sky" if name == "sky" else "colour"] = value
+    elif not (token.has("partitive") or set_scene(draft, token)):
+        return
+    draft.show(token)
 
 
 def go_inside(draft: SceneDraft, group: Group, relation: str, owners: Sequence[int]) -> bool:

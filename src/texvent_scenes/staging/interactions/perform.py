@@ -265,6 +265,10 @@ def _implied_acts(
 
 def _give_motion(rider: SceneObject, ridden: SceneObject, nouns: Mapping[str, Noun]) -> SceneObject:
     """Ridden object with the motion that the prompt gives to it or to its rider."""
+    if ridden.noun in nouns_with("ridden in place"):
+        return replace(
+            ridden, motions=(Motion("work" if nouns[ridden.noun].is_working else "tilt"),)
+        )
     said = ridden.motion if ridden.motion is not None and ridden.motion.is_moving else rider.motion
     usual = nouns[ridden.noun].motion
     if nouns[ridden.noun].habitat == "fixed" or usual == "roll":

@@ -102,7 +102,9 @@ def place_on_targets(
             group.plan = replace(group.plan, yaw=_INTO_PICTURE)
             group.fit()
         x, y, _ = np.mean([target.centre for target in targets], axis=0)
-        return Goal(np.array([x, y, height]), _FIXED if len(targets) == 1 else -_AWAY)
+        is_said = all(target.scene_object.position_m is not None for target in targets)
+        is_fixed = is_said or len(targets) == 1
+        return Goal(np.array([x, y, height]), _FIXED if is_fixed else -_AWAY)
     rest = {"on": rest_on, "in": rest_in, "at": place_at}.get(kind)
     if rest is not None:
         return Goal(rest(group, targets[0], neighbours), _FIXED)

@@ -42,7 +42,8 @@ NO_FLOOR_M = -1e4
 QUARTER = 0.5 * math.pi
 _TURN_SHARE, _HEADING_SHARE = 0.6, 0.45
 """Shares of a phase that a turn takes where it is all that happens, for it comes and goes on; and
-that the turn to another direction takes."""
+that the turn to another direction takes: more where its radius asks for that, but not all."""
+_MOST_TURNING = 0.95
 MOST_HASTE = 2.5
 """Most multiple of its usual speed at which an object does what its time is short for."""
 _TIPPING = 0.9
@@ -297,7 +298,7 @@ class _KeyBuilder:
         climb = slope * abs(speed) if self._is_free else 0.0
         if motion.kind == "slide" and self._noun.motion == "drive":
             self._swing_round(span)
-        segments = self._choose_segments(motion)
+        segments = self._choose_segments(motion, span)
         if end is None and not climb and self._go_round_corner(motion, segments, speed, span):
             return
         self._start(speed)
@@ -331,6 +332,8 @@ class _KeyBuilder:
             return False
         last = Key(span, speed, activity=activity_of(motion.kind))
         least_m = least_radius(self._model, self._noun)
+        if self.keys[-2:-1] and self.keys[-2].rates == before.rates:
+            before = replace(before, ramp_s=0.0)  # at that speed all along
         keys = corner(before, last, segments[0][1], span, least_m)
         if not keys:
             return False
@@ -352,7 +355,7 @@ class _KeyBuilder:
             Term("yaw", drift=drift, offset=-drift * begin_s, begin_s=begin_s, end_s=end_s)
         )
 
-    def _choose_segments(self, motion: Motion) -> list[tuple[float, float]]:
+    def _choose_segments(self, motion: Motion, span: float) -> list[tuple[float, float]]:
         """Shares of the time, and by what angle each one turns, rad."""
         direction = motion.direction or ""
         angle = math.pi if direction == "around" else QUARTER
@@ -368,7 +371,10 @@ class _KeyBuilder:
         turn = math.remainder(target - self._heading, 2.0 * math.pi)
         if abs(turn) < 0.05:
             return [(1.0, 0.0)]
-        return [(_HEADING_SHARE, turn), (1.0 - _HEADING_SHARE, 0.0)]
+        radius, speed = least_radius(self._model, self._noun), abs(self._speed(motion))
+        needed = (abs(turn) * radius / max(speed, 0.01) + _RAMP_S) / span
+        share = min(max(_HEADING_SHARE, needed), _MOST_TURNING)
+        return [(share, turn), (1.0 - share, 0.0)]
 
     def _climb(self, motion: Motion, span: float) -> None:
         """Straight up or down; from a runway, along it first, or last."""
@@ -399,6 +405,8 @@ class _KeyBuilder:
         elif not is_up:
             climb = -climb if self._is_free else -min(climb, self._height / span)
         # What rises alone starts slowly and gets faster all along.
+        if self._is_first and motion.speed_m_s is not None:
+            self.keys = [Key(0.0, climb_m_s=climb)]
         is_slow = is_up and self._is_single and motion.speed_m_s is None
         ramp, factor = (span, 2.0) if is_slow else (min(0.6, 0.6 * span), 1.0)
         self._append(Key(span, climb_m_s=factor * climb, ramp_s=ramp))

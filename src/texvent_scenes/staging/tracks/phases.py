@@ -210,9 +210,14 @@ def oscillations(motion: Motion, model: Model, phase: float) -> tuple[Term, ...]
 
 
 def between(terms: tuple[Term, ...], begin_s: float, end_s: float) -> tuple[Term, ...]:
-    """Oscillations that begin and, where the time allows it, end at their middle."""
-    found = []
+    """Oscillations that begin and end at their middle; in a short time small ones, once to a side.
+
+    So what hovers between two legs is where the second one begins.
+    """
+    found, span_s = [], max(end_s - begin_s, 1e-9)
     for one in terms:
+        if one.rate_hz and (least := 0.5 / span_s) > one.rate_hz:
+            one = one._replace(amplitude=one.amplitude * one.rate_hz / least, rate_hz=least)
         halves = math.floor(2.0 * (end_s - begin_s) * one.rate_hz + 1e-9)
         last_s = begin_s + 0.5 * halves / one.rate_hz if halves else end_s
         phase = -2.0 * math.pi * one.rate_hz * begin_s
