@@ -66,12 +66,7 @@ def find_unseen_place(
     """
     cameras = [scene.camera(time_s) for time_s in times]
     is_veiled = all(scene.environment(time_s).fog_distance < _CLEAR_M for time_s in times)
-    for one in said.backdrops:
-        if is_veiled or not _shows_backdrop(scene, one, cameras):
-            yield Violation("backdrops", "", f"the {one} in the distance")
-            yield Violation("place", one, "")
-    for name in _list_far(scene, said) if is_veiled else ():
-        yield Violation("place", name, f"the {name}: fog hides it")
+    yield from _find_far(scene, said, cameras, is_veiled=is_veiled)
     crossings = scene.animated_environment.base.road_crossings
     areas = [np.array([x, y, 0.0]) + _REACH_M * np.array(_SIDES) for x, y, *_ in crossings]
     if said.road and not any(_is_mostly_inside(each, one) for each in areas for one in cameras):
@@ -97,9 +92,7 @@ def find_unseen_place(
 
 
 def _shows_backdrop(scene: ComposedScene, name: str, cameras: Sequence[PosedCamera]) -> bool:
-    """Whether the horizon is in the image, and enough of what tells a backdrop."""
-    if not any(map(has_horizon, cameras)):
-        return False
+    """Whether enough of what tells a backdrop is in the image."""
     rules = PLACES[SEEN_FROM_AFAR.get(name, name)].scenery
     nouns = {one.noun for one in rules if one.where == "far"} or {one.noun for one in rules}
     own = [one for one in scene.scenery if one.rule.noun in nouns]
@@ -129,10 +122,18 @@ def is_before_sky(scene: ComposedScene, one: Actor, times: Sequence[float]) -> b
     return bool(found) and sum(found) >= _MOSTLY_SKY * len(found)
 
 
-def _list_far(scene: ComposedScene, said: Place) -> list[str]:
-    """The name of a place that is all far off, as mountains are."""
-    far = (one.noun for one in scene.place.scenery if one.where == "far")
-    return [name for name in far if name == said.name]
+def _find_far(
+    scene: ComposedScene, said: Place, cameras: Sequence[PosedCamera], *, is_veiled: bool
+) -> Iterator[Violation]:
+    """Backdrops, and a place that is all far off, as mountains are, of which nothing is seen."""
+    is_lost = is_veiled or not any(map(has_horizon, cameras))
+    for one in said.backdrops:
+        if is_lost or not _shows_backdrop(scene, one, cameras):
+            yield Violation("backdrops", "", f"the {one} in the distance")
+            yield Violation("place", one, "")
+    far = [one.noun for one in scene.place.scenery if one.where == "far"]
+    if is_veiled and said.name in far:
+        yield Violation("place", str(said.name), f"the {said.name}: fog hides it")
 
 
 def _is_mostly_inside(points: Float64Array, camera: PosedCamera) -> bool:

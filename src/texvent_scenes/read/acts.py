@@ -51,7 +51,7 @@ def perform(
         return None  # what it is done to is not known
     draft.show(verb)
     act = _stand_on(draft, act, verb, objects)
-    act = _stay_or_go(draft, act, subjects)
+    act = _go_until(draft, act, subjects)
     if act.aims:
         return _send(draft, act, verb, subjects, objects)
     if act.brings not in ("", EGO) and not objects:
@@ -74,10 +74,8 @@ def perform(
     return list(objects if act.object and objects else subjects)
 
 
-def _stay_or_go(draft: SceneDraft, act: VerbSense, subjects: Indices) -> VerbSense:
-    """The sense of what only stands there, or of what goes until it stops."""
-    if act.kind == "rise" and all(draft.noun(one).habitat == "fixed" for one in subjects):
-        return replace(act, kind="stand")  # "mountains rise in the distance"
+def _go_until(draft: SceneDraft, act: VerbSense, subjects: Indices) -> VerbSense:
+    """The sense of what goes until it stops, where it can arrive."""
     if act.end_pace == 0.0 and act.kind == "stand" and can_arrive(draft, subjects):
         return replace(act, kind="move", is_near=False)
     return act
@@ -162,6 +160,8 @@ def _choose_act(
         return act  # "a broom sweeping": it does not go
     act = next((one for one in acts if draft.fits(one, subjects, objects, has_object)), None)
     act = act or _act_as_person(draft, acts, subjects, objects, has_object)
+    if act and act.kind == "rise" and all(draft.noun(n).habitat == "fixed" for n in subjects):
+        act = replace(act, kind="stand")  # "mountains rise in the distance"
     is_sent = act is None and not has_object and _are_sent(draft, verb, subjects)
     return VerbSense(kind="throw") if is_sent else act
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from texvent_scenes.models.protocol import Noun
@@ -137,9 +137,7 @@ def _apply_to_things(draft: SceneDraft, clause: Clause) -> None:
         subjects, moved = do_verb(draft, clause, clause.verb, subjects, objects)
         told = moved or objects
     say_after(draft, tuple(one for one in after if one not in before), subjects, moved, told)
-    if known and subjects and any(one.text.startswith("close up") for one in after
-                                  if isinstance(one, Token)):  # fmt: skip
-        draft.parts["camera"]["target"] = subjects[0]  # of what was named before, or beside it
+    _look_closely(draft, after, subjects if known else [])
     if clause.is_of_effect and not subjects:
         lose_drift(draft, after)
     is_known = bool(told) or not clause.subjects
@@ -157,6 +155,15 @@ def _await(draft: SceneDraft, clause: Clause, subjects: list[int]) -> None:
     if clause.about == "then" or (phases and _is_joined(draft, clause)):
         for motions in (draft.things[one]["motions"] for one in subjects):
             motions[:0] = [{"kind": "stand"} for _ in range(phases if motions else 0)]
+
+
+def _look_closely(
+    draft: SceneDraft, after: Sequence[Phrase | Token], subjects: Sequence[int]
+) -> None:
+    """Have a close-up that is told after the scene be of what it names: "close-up of the cup"."""
+    words = [one.text for one in after if isinstance(one, Token)]
+    for index in subjects[:1] if any(one.startswith("close up") for one in words) else ():
+        draft.parts["camera"]["target"] = index
 
 
 def _is_joined(draft: SceneDraft, clause: Clause) -> bool:

@@ -89,9 +89,7 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
         _fill_place(draft, token, (head.text, name))
     set_scene(draft, head)
     is_said = bool(group.modifiers) and relation not in ("in", "on", "through")
-    is_bare = name == "sky" and not relation and "name" not in place
-    draft.is_over |= is_bare
-    if is_bare and leave_sky(draft):
+    if name == "sky" and not relation and "name" not in place and _is_overhead(draft):
         draft.show(head)
     elif not is_it and name in word_set("things", "backdrops") and not is_room(place["name"]):
         far = "city" if name == "skyline" else name
@@ -132,6 +130,12 @@ def go_inside(draft: SceneDraft, group: Group, relation: str, owners: Sequence[i
     draft.parts["place"]["name"] = rooms[noun]
     draft.mark(head, rooms[noun])
     return True
+
+
+def _is_overhead(draft: SceneDraft) -> bool:
+    """Note that the sky is named by itself; whether it is over what is on the ground."""
+    draft.is_over = True
+    return leave_sky(draft)
 
 
 def leave_sky(draft: SceneDraft) -> bool:

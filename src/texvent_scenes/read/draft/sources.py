@@ -33,5 +33,5 @@ def _is_inherent(draft: SceneDraft, effect: dict[str, object]) -> bool:
     if not isinstance(source, int):
         return False
     thing = draft.things[source]
-    is_own = trait_value("own effect", thing["noun"]) == effect["kind"]
-    return bool(is_own and thing.get("is_lit", True))
+    kind: str | None = trait_value("own effect", thing["noun"])
+    return bool(thing.get("is_lit", True)) and kind == effect["kind"]
