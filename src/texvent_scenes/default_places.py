@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.activities import MOUTH_ACTIVITIES
-from texvent_scenes.models.places import is_room
+from texvent_scenes.models.places import PLACES, is_room
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.spec.scene import Place
@@ -47,6 +47,7 @@ def choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> st
         return "snow"
     if said.name is None and not of_travel:
         usual = "sea" if said.wave_height > Place.wave_height else usual
+        usual = "city" if said.road is not None and not PLACES[usual].has_road else usual
         return "beach" if usual == "sea" and _stands_ashore(description, nouns) else usual
     return said.name or of_travel[0]
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from texvent_scenes.checks.staged_clip import StagedClip, is_inside
 from texvent_scenes.description import Claim
-from texvent_scenes.models.activities import ACTIVITIES, PERSON_NOUNS, TIMED, TRAVELLING
+from texvent_scenes.models.activities import ACTIVITIES, PERSON_NOUNS, SAT, TIMED, TRAVELLING
 from texvent_scenes.models.tables import trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor
@@ -389,11 +389,11 @@ def is_doing(staged: StagedClip, claim: Claim) -> bool:
     opens and closes is closed again.
     """
     first, own = str(claim.value).split()[0], staged.own(claim)
+    does = [{part for time_s in staged.times
+             for part in one.track.at(time_s).activity.split(" and ")} for one in own]  # fmt: skip
     done = [
-        {part.split()[0] for time_s in staged.times
-         for part in one.track.at(time_s).activity.split(" and ")}
-        for one in own
-    ]  # fmt: skip
+        {part.split()[0] for part in each} | ({"sit"} if each & SAT else set()) for each in does
+    ]
     is_up = first == "jump" and all(
         max(map(one.lowest_m, staged.times)) > _GROUNDED * one.size_m for one in own
     )

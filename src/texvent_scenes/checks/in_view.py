@@ -136,6 +136,11 @@ def find_unseen(
     unseen, partly, hidden = unseen | inside_one, partly | inside_one, unseen - partly
     unseen |= {one.targets[0] for one in description.relations if one.subject in hidden
                and one.kind == "wear" and not any(bodies[one.targets[0]])}  # fmt: skip
+    bodied = {one.object_index for one in scene.actors}
+    riders = {one.subject for one in description.relations if one.kind == "ride"
+              and one.targets[0] in unseen and one.subject not in bodied | unseen}  # fmt: skip
+    outside += [f"{description.objects[index].noun}" for index in sorted(riders)]
+    unseen |= riders
     lines, lost, cut, violations = _find_slight(scene, description, unseen, clip)
     outside, unseen, partly = outside + lines, unseen | lost | cut, partly | cut
     seen = {number: view.at for number, view in views.items()}

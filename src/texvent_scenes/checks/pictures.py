@@ -63,7 +63,8 @@ _RESTS = ("stand", "stand open", "stand closed", "hang", "work", "sit", "lie", "
           "show amber", "show green")  # fmt: skip
 """Motions that nothing needs to show."""
 _VEILED, _VEILED_LEVELS = 0.001, 14.0
-"""Least share of a small picture, and difference of its pixels, that show a body in fog or in the dark."""
+"""Least share of a small picture, and difference of its pixels, that show a body in fog or in the
+dark."""
 _POINT = 1e-6
 """Radius of particles that are too small to be seen, in sizes of an effect."""
 _LATER_S = (0.13, 0.0171)

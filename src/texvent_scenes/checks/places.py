@@ -72,9 +72,8 @@ def find_unseen_place(
             continue
         yield Violation("backdrops", "", f"the {one} in the distance")
         yield Violation("place", one, "")
-    far = [one.noun for one in scene.place.scenery if one.where == "far"]
-    if is_veiled and said.name in far:
-        yield Violation("place", str(said.name), f"the {said.name}: fog hides it")
+    for name in _list_far(scene, said) if is_veiled else ():
+        yield Violation("place", name, f"the {name}: fog hides it")
     crossings = scene.animated_environment.base.road_crossings
     areas = [np.array([x, y, 0.0]) + _REACH_M * np.array(_SIDES) for x, y, *_ in crossings]
     if said.road and not any(_is_mostly_inside(each, one) for each in areas for one in cameras):
@@ -128,6 +127,12 @@ def is_before_sky(scene: ComposedScene, one: Actor, times: Sequence[float]) -> b
         others = depth[instance != one.instance]
         found.append(bool(len(others)) and float(np.isinf(others).mean()) >= _MOSTLY_SKY)
     return bool(found) and sum(found) >= _MOSTLY_SKY * len(found)
+
+
+def _list_far(scene: ComposedScene, said: Place) -> list[str]:
+    """The name of a place that is all far off, as mountains are."""
+    far = (one.noun for one in scene.place.scenery if one.where == "far")
+    return [name for name in far if name == said.name]
 
 
 def _is_mostly_inside(points: Float64Array, camera: PosedCamera) -> bool:

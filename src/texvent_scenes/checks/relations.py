@@ -60,6 +60,8 @@ _BY = ("at", "to", "towards")
 """Words for "beside" of what one cannot be at otherwise, such as a pier."""
 _SAID = {"front": "in front of", "follow": "following", "act on": "at"}
 """Kinds of relation that a line of the report says in other words."""
+_RESTING, _AMID = ("stand", "hover", "spin"), 0.12
+"""Motions in one place; greatest tangent of the angle to what is in the middle."""
 _MOST_COPIES = 0.75
 """Share of a subject's copies in a relation."""
 
@@ -121,14 +123,27 @@ def find_violations(
     passing = {one.subject for one in description.relations if one.kind in ("past", "overtake")}
     led = {target for one in description.relations for target in one.targets}
     for index, (thing, own) in enumerate(zip(description.objects, copies, strict=True)):
-        sign = _ON_SIDES.get(thing.placement or "", 0.0) if index not in passing else 0.0
-        if own and sign and not any(np.mean(sign * one.seen[:, 0]) > _ASIDE for one in own):
-            yield Violation("placement", str(thing.placement), f"{names[index]} on the "
-                            f"{thing.placement}")  # fmt: skip
+        if index not in passing and (part := _list_side(thing, own)):
+            yield Violation("placement", str(thing.placement), f"{names[index]} {part}")
         motion = thing.motion if len(thing.motions) == 1 and index not in led else None
         if own and motion and not any(goes_so(one, motion) for one in own):
             line = f"{names[index]} going {motion.direction}"
             yield Violation("direction", str(motion.direction), line)
+
+
+def _list_side(said: SceneObject, own: Sequence[BodyBoxes]) -> str:
+    """Words for the part of the image in which a body should be, and is not; "" = it is."""
+    sign = _ON_SIDES.get(said.placement or "", 0.0)
+    if own and sign and not any(np.mean(sign * one.seen[:, 0]) > _ASIDE for one in own):
+        return f"on the {said.placement}"
+    return "in the middle" if own and said.placement == "centre" and not _is_amid(said, own) else ""
+
+
+def _is_amid(said: SceneObject, own: Sequence[BodyBoxes]) -> bool:
+    """Whether one that stays in its place at first is about the middle of the image then."""
+    first = [one.seen[: len(one.seen) // 3 + 1, 0] for one in own]
+    rests = bool(said.motions) and said.motions[0].kind in _RESTING
+    return not rests or any(bool((np.abs(one) <= _AMID).any()) for one in first)
 
 
 def _list_knocked(description: SceneDescription) -> list[int]:

@@ -52,12 +52,13 @@ class StagedClip:
 
     def list_actors(self, index: int) -> list[Actor]:
         """Copies of an object; a rider who is drawn with a vehicle is that."""
-        own = [one for one in self.scene.actors if one.object_index == index]
-        built_in = [one.targets[0] for one in self.description.relations
-                    if one.subject == index and one.kind in ("ride", "on") and trait_value(
-                        "ridden", self.description.objects[one.targets[0]].noun) == "built-in"]  # fmt: skip
-        ridden = {*built_in} if not own else set()
-        return own or [one for one in self.scene.actors if one.object_index in ridden]
+        if own := [one for one in self.scene.actors if one.object_index == index]:
+            return own
+        ridden = {one.targets[0] for one in self.description.relations
+                  if one.subject == index and one.kind in ("ride", "on")}  # fmt: skip
+        nouns = {n: self.description.objects[n].noun for n in ridden}
+        built_in = {n for n, noun in nouns.items() if trait_value("ridden", noun) == "built-in"}
+        return [one for one in self.scene.actors if one.object_index in built_in]
 
     @cached_property
     def fine_times(self) -> list[float]:

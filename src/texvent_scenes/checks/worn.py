@@ -37,7 +37,8 @@ def find_unworn(
         has_body = one.subject in {actor.object_index for actor in scene.actors}
         for index in clothes if one.kind == "wear" else ():
             if not has_body:  # a rider, part of a bicycle, has on a shirt of that colour only
-                if _SHIRT not in CLOTHES[description.objects[index].noun]["painted"]:
+                row = CLOTHES[description.objects[index].noun]
+                if row["painted"] != [_SHIRT] or "dress" in row or "garments" in row:
                     yield index
                 continue
             pictures = [

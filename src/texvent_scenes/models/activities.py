@@ -167,6 +167,8 @@ AIMED = frozenset({"point", "wave", "look", "feed", "talk", "shout"})
 """Activities that are turned to who or what they are for."""
 ON_TOP: Mapping[str, str] = MappingProxyType({"lift": "lift off a top", "set down": "set on a top"})
 """Names of acts on a thing, as relations, where it is or comes to be on a bench."""
+SAT = frozenset({"type", "play piano", "play drums"})
+"""Activities of who sits on a seat that comes with them."""
 ON_FOOT = frozenset({"walk", "run", "move"})
 """Motions of a person on the way, while whom the arms may do something else."""
 SEATED = "sit and "

@@ -10,9 +10,9 @@ from typing import Any
 from texvent.prompt_report import Substitution
 from texvent_scenes.colours import rgb_of
 from texvent_scenes.description import Claim, Dependence
-from texvent_scenes.models.activities import PERSON_NOUNS
+from texvent_scenes.models.activities import PERSON_NOUNS, SAT
 from texvent_scenes.models.protocol import Noun
-from texvent_scenes.models.tables import nouns_with, trait_values
+from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
 from texvent_scenes.read.draft.copies import OPPOSITE, halve, take_turns
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.draft.setting import leave_sky
@@ -62,6 +62,11 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
     _do_deeds(draft)
     _find_opponents(draft)
     _hang_up(draft)
+    _stand_level(draft)
+    _tell_riders(draft)
+    for token in (one for one in draft.tokens if one.text == "stars" and "star" in one.nouns):
+        if draft.parts["light"].get("kind") == "night" and draft.shows(token):
+            draft.mark(token, "star shapes")  # which are near and large
     find_sources(draft)
     leave_sky(draft)
     _turn_marks(draft)
@@ -196,8 +201,14 @@ def _list_claims(draft: SceneDraft) -> Iterator[Claim]:
     closed = {one.text for one in lost if one.at not in claimed}
     for at, claims in draft.claims.items():
         fate = draft.fates.get(at, "lost")
+        claims = [one for one in claims if one.kind != "sit at" or not _has_seat(draft, one)]
         yield from (one for one in claims if one.word not in closed
                     and (fate == "shown" or (fate == "lost" and one.is_open)))  # fmt: skip
+
+
+def _has_seat(draft: SceneDraft, claim: Claim) -> bool:
+    """Whether the act of who sits somewhere comes with the seat, and with what it is done at."""
+    return claim.subject is not None and bool(draft.does([claim.subject]) & SAT)
 
 
 def _choose_gender(draft: SceneDraft) -> None:
@@ -208,6 +219,33 @@ def _choose_gender(draft: SceneDraft) -> None:
         if words & {*pronouns} and persons[0]["noun"] == "person":
             persons[0]["noun"] = noun
             draft.fates.update({at: noun for at, one in draft.fates.items() if one == "person"})
+
+
+_LARGE_M = 0.4
+"""Length of an animal from which on no round rock bears it."""
+
+
+def _stand_level(draft: SceneDraft) -> None:
+    """Have large animals on flat rocks: on a round one, feet would hang in the air."""
+    flat = word_table("stood_on")
+    for index, one in enumerate(draft.things):
+        noun = draft.noun(index)
+        for target in draft.targets([index], ["on"]) if noun.motion == "walk" else ():
+            thing = draft.things[target]
+            if thing["noun"] in flat and one["noun"] not in PERSON_NOUNS:
+                length_m = noun.build(colour=None, scale=1.0, seed=0).length
+                thing["noun"] = flat[thing["noun"]] if length_m > _LARGE_M else thing["noun"]
+
+
+def _tell_riders(draft: SceneDraft) -> None:
+    """Report persons of whom a vehicle brings its own: no girl is drawn on a bicycle."""
+    for index, one in enumerate(draft.things):
+        ridden = draft.names(draft.targets([index], ["ride"]))
+        if one["noun"] not in PERSON_NOUNS - word_set("things", "brought"):
+            continue
+        if any(trait_value("ridden", noun) == "built-in" for noun in ridden):
+            for token in (each for each in draft.tokens if one["noun"] in each.nouns):
+                draft.mark(token, "person")
 
 
 def _hang_up(draft: SceneDraft) -> None:
@@ -277,10 +315,10 @@ def _skate_on_ice(draft: SceneDraft) -> None:
     is_ice = draft.parts["place"].get("name") in ("ice rink", "snow")
     for index, thing in enumerate(draft.things):
         skating = [one for one in thing["motions"] if one["kind"] == "skate"]
-        for one in skating if is_ice or thing["noun"] == "figure skater" else ():
-            one["kind"] = "ice skate"
+        for one in skating if is_ice or thing["noun"] in nouns_with("skates on ice") else ():
+            one["kind"] = "skate on blades"
             draft.claims = {
-                at: [replace(each, value="ice skate")
+                at: [replace(each, value="skate on blades")
                      if (each.subject, each.value) == (index, "skate") else each for each in claims]
                 for at, claims in draft.claims.items()
             }  # fmt: skip

@@ -8,10 +8,12 @@ from functools import cache
 from typing import Any
 
 from texvent_scenes.models.activities import (
+    ACTIVITIES,
     ANIMAL_ACTIVITIES,
     DONE_SEATED,
     HAND_NOUNS,
     ON_FOOT,
+    PERSON_NOUNS,
     TIMED,
     is_mutual,
 )
@@ -49,6 +51,8 @@ def perform(
         return None  # what it is done to is not known
     draft.show(verb)
     act = _stand_on(draft, act, verb, objects)
+    if act.kind == "rise" and all(draft.noun(one).habitat == "fixed" for one in subjects):
+        act = replace(act, kind="stand")  # "mountains rise in the distance"
     if act.aims:
         return _send(draft, act, verb, subjects, objects)
     if act.brings not in ("", EGO) and not objects:
@@ -59,8 +63,9 @@ def perform(
     if act.is_near and not (is_change and draft.things[subjects[0]]["motions"]):
         draft.mark(verb, act.kind or act.relation or "")
     for index in subjects:
-        _do(draft, act, verb, index)
-        claim_act(draft, act, verb, index, objects)
+        own = _as_named(draft, act, verb, index)
+        _do(draft, own, verb, index)
+        claim_act(draft, own, verb, index, objects)
     for index in objects:
         add_motion(draft.things[index], VerbSense(kind=act.object))
         _switch(draft, act.object, index)
@@ -91,6 +96,12 @@ def _send(
         is_scored = verb.text.split()[0] in word_set("things", "scoring")
         draft.claim(verb, "taken in", "", sent if is_scored else [], goals)
     return list(subjects)
+
+
+def _as_named(draft: SceneDraft, act: VerbSense, verb: Token, index: int) -> VerbSense:
+    """An act as one of several does it who are named by theirs: "a drummer and a pianist play"."""
+    deed = draft.things[index].get("deed", "") if verb.text in _list_performing() else ""
+    return replace(act, kind=deed) if deed else act
 
 
 def _stand_on(draft: SceneDraft, act: VerbSense, verb: Token, objects: Indices) -> VerbSense:
@@ -136,6 +147,7 @@ def _choose_act(
     words = {draft.things[one].get("word", "") for one in subjects}
     if verb.text in _list_performing() and not done and words & _musicians():
         return None  # of an instrument that nobody plays here: no game
+    done |= _list_played(draft, subjects) if verb.text in _list_performing() else set()
     if verb.text in _list_performing():
         acts[:0] = [VerbSense("person", one) for one in done]
     acts.sort(key=lambda one: one.kind not in done)  # "swings at a ball": a golfer, a batter
@@ -258,6 +270,13 @@ def _list_tools(activity: str) -> set[str]:
     return {noun for prop in props for noun in prop.nouns}
 
 
+def _list_played(draft: SceneDraft, subjects: Indices) -> set[str]:
+    """Acts on instruments at which subjects are, or that they have: "sits at a piano and plays"."""
+    near = draft.names(draft.targets(subjects, ("at", "on", "beside", "hold", "with")))
+    plays = (one for one in ACTIVITIES if one.startswith("play "))
+    return {one for one in plays if any(near & {*prop.nouns} for prop in list_props(one))}
+
+
 @cache
 def _musicians() -> frozenset[str]:
     """Words of musicians who are not drawn playing: "cellists"."""
@@ -287,7 +306,7 @@ def claim_act(draft: SceneDraft, act: VerbSense, verb: Token, index: int, object
         draft.claim(verb, "stop", "", [index])
     if act.who == "lamp" and draft.things[index]["noun"] not in word_set("things", "flames"):
         draft.claim(verb, "shine", "", [index])
-    if act.who in ("person", "hand", "animal", *draft.nouns) or act.kind == "lie":
+    if act.who in ("person", "hand", "animal", *PERSON_NOUNS) or act.kind == "lie":
         is_body = act.who != "plain" or draft.walks(index)
         draft.claim(verb, "activity" if is_body else "lie", act.kind, [index])
     elif verb.text in word_set("things", "hung"):

@@ -114,57 +114,73 @@ def apply_to_camera(draft: SceneDraft, clause: Clause, *, is_own: bool) -> None:
     """Move the camera as a clause says, and name what is in view."""
     targets = list[int]()
     move = find_move(draft, clause)
-    is_driven = draft.is_driven or (move or {}).get("means") == "drive"
-    is_led = is_driven and move in (split_move("follow"), split_move("dolly in"))
+    ways = split_move("follow"), split_move("dolly in")
+    is_led = move in ways and draft.is_driven
     for group in clause.subjects if clause.about != "company" else ():
         name_group(draft, group, "in")
     for group in clause.objects if is_led or not is_own else ():
         targets += name_group(draft, group)
-    if is_led and move == split_move("dolly in") and clause.verb is not None:
-        draft.claim(clause.verb, "camera", "towards", [None], targets)  # "approaching a bridge"
-        move = None
-    elif is_led and _go_ahead(draft, clause.verb, targets):
-        move = None
+    move = None if is_led and _lead_on(draft, clause, targets) else move
     _lead_followed(draft, move, targets)
     for one in clause.after:
         if not isinstance(one, Phrase):
             set_scene(draft, one)
-        elif is_standpoint(draft, one, move or {}):
-            continue
-        elif move is not None and _go_along(draft, clause, move, one):
+        elif is_standpoint(draft, one, move or {}) or (
+            move is not None and _go_along(draft, clause, move, one)
+        ):
             continue
         elif targets:  # as "orbits a car in front of a house"
             apply_phrase(draft, one, targets, targets)
         else:
-            found, kind = apply_phrase(draft, one, [], []), one.preposition.relation
-            if is_driven and kind == "behind" and _go_ahead(draft, one.preposition, found):
-                continue
-            targets += found if kind in word_set("things", "aims") else []
-            turns = move is not None and move["kind"] in ("pan", "tilt")
-            is_swept = turns and one.preposition.text in word_set("things", "swept")
-            targets += found if is_swept else []
-            is_side = bool(found) and kind in word_set("things", "sides") and not is_swept
-            if found and kind in ("through", "out of"):
-                is_side = move is None or not go_through(draft, move, one.preposition, found)
-            is_over = look_over(draft, one.preposition, found)
-            is_low = kind == "above" and _keeps_to_ground(draft, move)
-            claim_way(draft, move, one.preposition, [] if is_over or is_low else found)
-            heads = heads_of(one.groups)
-            words = heads or [each for group in one.groups for each in group.unknown]
-            is_side |= bool(one.groups) and not any(map(draft.shows, words))
-            is_side |= kind == "front" and any(each["kind"] == "travel" for each in draft.moves)
-            is_side &= not is_over
-            is_place = any(each.has("place") for each in heads)
-            is_side |= is_place and not found and kind in ("out of", "into")  # it stays there
-            goes = any(each["kind"] == "travel" for each in (*draft.moves, move or {"kind": ""}))
-            is_side |= goes and bool(found) and kind in ("up", "down")  # it keeps its height
-            is_side |= bool(found) and is_low
-            draft.mark(one.preposition, "lost" if is_side else "shown")  # nothing is put there
+            targets += _see_past(draft, move, one)
     if move is not None:
         draft.add_move(move)
         if targets:
             draft.parts["camera"].setdefault("target", targets[0])
         _lead_followed(draft, move, targets)
+
+
+def _see_past(draft: SceneDraft, move: dict[str, Any] | None, phrase: Phrase) -> list[int]:
+    """Name what a phrase says of a camera's way: what the camera looks at of it."""
+    token = phrase.preposition
+    found, kind = apply_phrase(draft, phrase, [], []), token.relation
+    is_driven = draft.is_driven or (move or {}).get("means") == "drive"
+    if is_driven and kind == "behind" and _go_ahead(draft, token, found):
+        return []
+    turns = move is not None and move["kind"] in ("pan", "tilt")
+    is_swept = turns and token.text in word_set("things", "swept")
+    is_side = bool(found) and kind in word_set("things", "sides") and not is_swept
+    if found and kind in ("through", "out of"):
+        is_side = move is None or not go_through(draft, move, token, found)
+    is_over = look_over(draft, token, found)
+    is_low = kind == "above" and _keeps_to_ground(draft, move)
+    claim_way(draft, move, token, [] if is_over or is_low else found)
+    is_side = not is_over and (is_side or _is_beside_way(draft, move, phrase, found))
+    draft.mark(token, "lost" if is_side or (bool(found) and is_low) else "shown")
+    return found if kind in word_set("things", "aims") or is_swept else []
+
+
+def _is_beside_way(
+    draft: SceneDraft, move: Mapping[str, Any] | None, phrase: Phrase, found: Indices
+) -> bool:
+    """Whether nothing is put where a phrase says: before who drives, up a hill, into a place."""
+    kind, heads = phrase.preposition.relation, heads_of(phrase.groups)
+    words = heads or [each for group in phrase.groups for each in group.unknown]
+    is_side = bool(phrase.groups) and not any(map(draft.shows, words))
+    is_side |= kind == "front" and any(each["kind"] == "travel" for each in draft.moves)
+    is_place = any(each.has("place") for each in heads)
+    is_side |= is_place and not found and kind in ("out of", "into")  # it stays there
+    goes = any(each["kind"] == "travel" for each in (*draft.moves, move or {"kind": ""}))
+    return is_side or (goes and bool(found) and kind in ("up", "down"))  # it keeps its height
+
+
+def _lead_on(draft: SceneDraft, clause: Clause, targets: Indices) -> bool:
+    """Whether a camera that drives goes after what it follows, or towards what it approaches."""
+    verb = clause.verb or NO_TOKEN
+    if not any(one.value.kind == "dolly in" for one in verb.all("verb")):
+        return _go_ahead(draft, clause.verb, targets)
+    draft.claim(verb, "camera", "towards", [None], targets)  # "approaching a bridge"
+    return True
 
 
 def _lead_followed(draft: SceneDraft, move: Mapping[str, Any] | None, targets: Indices) -> None:

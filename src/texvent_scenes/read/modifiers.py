@@ -14,7 +14,7 @@ from texvent_scenes.models.protocol import Pose
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.acts import perform
 from texvent_scenes.read.draft.abilities import MEANS, Indices
-from texvent_scenes.read.draft.copies import part_off, part_ways
+from texvent_scenes.read.draft.copies import part_off, part_ways, switch_in_turn
 from texvent_scenes.read.draft.scene_draft import SceneDraft, add_motion, set_field
 from texvent_scenes.read.draft.setting import set_scene
 from texvent_scenes.read.parsing.groups import Group
@@ -141,6 +141,11 @@ def _say_at_once(
     if field == "in_turn" and not subjects and draft.effects:
         draft.show(*([token] if draft.effects[-1]["kind"] == "drip" else []))
         return True  # drops fall one by one
+    is_still = bool(subjects) and not any(draft.things[one]["motions"] for one in subjects)
+    if field == "in_turn" and is_still and any(draft.is_lamp(one) for one in subjects):
+        is_so = all([switch_in_turn(draft, one) for one in subjects])
+        draft.mark(token, "shown" if is_so else "lost")
+        return True
     for one in subjects if field == "in_mouth" else ():
         draft.take_in_mouth(one)
     if field == "wind":

@@ -19,7 +19,6 @@ from texvent_scenes.read.prepositions import claim_mutual, find_mutual
 from texvent_scenes.read.things import name_group, pick_group
 from texvent_scenes.spec.data import PLACING, WAYS
 
-
 _OF_NOBODY = {("light", "kind"), ("place", "wave_height")}
 """Part and name of what clauses about light and waves say."""
 
@@ -113,6 +112,12 @@ def find_object(
     others = [one for one in dict.fromkeys((*draft.last.acted, *nearest, *about))
               if one not in subjects
               and (one in persons) == (word in ("him", "her"))]  # fmt: skip
+    is_taken = clause.verb is not None and any(
+        one.value.relation in word_set("things", "of_bodies") for one in clause.verb.all("verb")
+    )
+    tables = word_set("things", "tables")
+    if is_taken:  # "a cup on a desk, and lifts it"
+        others = [one for one in others if draft.things[one]["noun"] not in tables] or others
     return sorted(others, key=draft.can_go, reverse=True)[:1]  # no tree is followed
 
 

@@ -98,7 +98,9 @@ def _say_of_part(draft: SceneDraft, word: Token, part: str, owners: Indices) -> 
     is_lamp = part in word_set("things", "lamps")
     fields = dict(one.value for one in word.all("field"))
     if word.has("verb") and not word.has("noun", "field"):
-        if part in word_set("things", "stiff_parts"):
+        acts = [one.value for one in word.all("verb") if one.value.who == "lamp"]
+        blinks = is_lamp and any(one.kind == "blink" for one in acts)
+        if part in word_set("things", "stiff_parts") and not blinks:
             return
         draft.claim(word, "blink" if is_lamp else "parts", "", owners)
         for one in (draft.things[n] for n in owners if part in word_set("things", "bare_parts")):
@@ -107,7 +109,9 @@ def _say_of_part(draft: SceneDraft, word: Token, part: str, owners: Indices) -> 
         for one in (draft.things[n] for n in owners if is_lamp):
             if not any(lamp.own_hz for lamp in LAMPS.get(one["noun"], ())):
                 one |= {"is_lit": True, "blink_hz": BLINK_HZ}
-                one["motions"] = one["motions"] or [{"kind": "move", "direction": "towards"}]
+                goes = [{"kind": "move", "direction": "towards"}]
+                can_go = draft.nouns[one["noun"]].speed_m_s > 0.0
+                one["motions"] = one["motions"] or (goes if can_go else [])
     elif "colour" in fields:
         painted = word_table("painted").get(part, ())
         for one in (draft.things[n] for n in owners):

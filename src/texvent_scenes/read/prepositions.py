@@ -160,6 +160,9 @@ def go_to_place(
         draft.mark(token, "lost")
         if token.text in ("from", "out of") and does & word_set("things", "off_ground"):
             draft.claim(token, "rise", "", moved)  # "takes off from a runway"
+    for thing in (draft.things[one] for one in subjects if token.text == "of" and place.has_road):
+        is_amid = thing.get("placement") == "centre" and draft.nouns[thing["noun"]].speed_m_s
+        thing |= {"placement": "lane"} if is_amid else {}  # "in the middle of the road"
     is_road = token.text in ("on", *_ALONG) and place in (PLACES["road"], PLACES["dirt road"])
     for index in subjects if is_road else ():
         said = token.text == "on" and place is PLACES["road"]  # else a fence stands beside it

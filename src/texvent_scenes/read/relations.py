@@ -26,13 +26,15 @@ _ROUND = frozenset({"on", "past", "at", "in", "through", "into"})
 _SMALL = nouns_with("in hand or on something")
 _BED = nouns_with("seat") | word_set("things", "tables")
 _WORKED_AT = nouns_with("worked at")
-_GROUND = nouns_with("way") | {"rug"}
+_GROUND = nouns_with("way") | nouns_with("put down on")
 _HANDED = {"into": "in", "in": "in", "on": "on", "to": "on", "above": "on"}
 
 
 def relate_one(draft: SceneDraft, kind: str, index: int, targets: Indices) -> bool:
     """Relate a thing to others as far as scenes can; whether it is so."""
     thing, noun = draft.things[index], draft.things[targets[0]]["noun"]
+    if kind == "with" and _has_other_tool(thing, noun):
+        return False  # "waters flowers with a hose", and has a can
     if kind == "with" and len(parts := _part_worn(draft, targets)) > 1:
         return all([relate_one(draft, kind, index, each) for each in parts])
     if kind == "with" and thing["noun"] in trait_values("circled on"):
@@ -47,8 +49,7 @@ def relate_one(draft: SceneDraft, kind: str, index: int, targets: Indices) -> bo
             return all([draft.relate(one, borne, [index]) for one in targets])
         if noun in nouns_with("towering"):
             return True  # it stands in the distance
-        if not any(draft.can_go(one) and draft.noun(one).motion != "roll"
-                   for one in (index, *targets)):  # fmt: skip
+        if not any(_goes_by_itself(draft, one) for one in (index, *targets)):
             return False  # "a vase with roses", "a disc with a dot"
     if kind == "on" and _bears_nobody(draft, index, noun, targets):
         return False
@@ -181,10 +182,21 @@ def _bears_nobody(draft: SceneDraft, index: int, noun: str, targets: Indices) ->
     return is_worked_at or noun in word_set("things", "peaks")
 
 
+def _has_other_tool(thing: Mapping[str, Any], noun: str) -> bool:
+    """Whether an act has another tool in the right hand than the one that is said."""
+    props = [prop for one in thing["motions"] for prop in list_props(one["kind"])]
+    is_tool = noun in _SMALL | nouns_with("held as a tool") | nouns_with(
+        "used like a tool"
+    ) and not can_be_worn(noun)
+    has_tool = any(prop.anchor == "right hand" for prop in props)
+    return is_tool and has_tool and not any(noun in prop.nouns for prop in props)
+
+
 def _has_bench(thing: Mapping[str, Any]) -> bool:
     """Whether an act comes with a bench of its own, which stands on no bed."""
-    props = [prop for one in thing["motions"] for prop in list_props(one["kind"])]
-    return any(prop.anchor == "ground" and prop.name.startswith("bench") for prop in props)
+    acts = [one["kind"] for one in thing["motions"]]
+    acts = [one for one in acts if one in ACTIVITIES and ACTIVITIES[one].is_at_bench]
+    return any(prop.anchor == "ground" for one in acts for prop in list_props(one))
 
 
 def _works(thing: Mapping[str, Any]) -> bool:
@@ -220,12 +232,11 @@ def _use(thing: Mapping[str, Any], noun: str) -> str:
 def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> str:
     """The relation that is meant, which depends on what stands in it; "" = none."""
     thing, noun = draft.things[index], draft.things[other]["noun"]
+    is_among = draft.things[other]["count"] > 1 and _are_going(draft, index, other)
+    kind = "between" if kind == "in" and is_among else kind  # "in a traffic jam", "in a crowd"
     kind = _see_inside(kind, draft.nouns[thing["noun"]].habitat, noun)
     if kind in WAYS:
         return _choose_way(draft, kind, index, other)
-    goes_among = draft.things[other]["count"] > 1 and draft.can_go(other)
-    if kind == "in" and goes_among and draft.can_go(index):
-        return "between"  # "in a traffic jam", "in a crowd"
     ends = [one.get("end_pace") for one in thing["motions"]][-1:]
     if kind == "front" and ends == [0.0]:
         return "to"  # "stops in front of a dog", which is in its way
@@ -248,6 +259,16 @@ def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> st
     if kind == "behind" and draft.goes_like(index, other):  # who brakes keeps no pace
         return "" if "end_pace" in thing["motions"][0] else "follow"
     return kind
+
+
+def _goes_by_itself(draft: SceneDraft, index: int) -> bool:
+    """Whether it goes otherwise than by rolling, as a ball does."""
+    return draft.can_go(index) and draft.noun(index).motion != "roll"
+
+
+def _are_going(draft: SceneDraft, *indices: int) -> bool:
+    """Whether all go by themselves."""
+    return all(map(draft.can_go, indices))
 
 
 def _choose_way(draft: SceneDraft, kind: str, index: int, other: int) -> str:

@@ -137,6 +137,9 @@ def _apply_to_things(draft: SceneDraft, clause: Clause) -> None:
         subjects, moved = do_verb(draft, clause, clause.verb, subjects, objects)
         told = moved or objects
     say_after(draft, tuple(one for one in after if one not in before), subjects, moved, told)
+    if known and subjects and any(one.text.startswith("close up") for one in after
+                                  if isinstance(one, Token)):  # fmt: skip
+        draft.parts["camera"]["target"] = subjects[0]  # of what was named before, or beside it
     if clause.is_of_effect and not subjects:
         lose_drift(draft, after)
     is_known = bool(told) or not clause.subjects

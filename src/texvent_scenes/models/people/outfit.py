@@ -99,14 +99,22 @@ def can_be_worn(noun: str) -> bool:
     return noun in CLOTHES or trait_value("worn", noun) is not None
 
 
+_TOPS = frozenset({"shirt", "sweater", "hoodie", "jacket"})
+"""Clothes of the upper body alone."""
+
+
 def put_on(kind: PersonKind, worn: Iterable[Worn]) -> PersonKind:
     """A kind of person in what it wears."""
+    worn = tuple(worn)
+    is_dressed = any(CLOTHES[noun].get("dress") == "skirt" for noun, _, _ in worn)
     for noun, said, material in worn:
         row = CLOTHES[noun]
         own = MATERIALS[material].colour if material else None
         own = own and shade(own, _DARKER)  # no bare skin
         colour = said or own or frozen(row.get("usual"))
         changed = {key: frozen(value) for key, value in row.items() if key in _FIELDS}
+        if noun in _TOPS and kind.dress == "skirt" and not is_dressed:
+            changed.setdefault("dress", "trousers")  # a dress of that colour is no sweater
         garments = (*kind.garments, *changed.pop("garments", ()))
         for field, part in (("fabric", "shirts"), ("leg_fabric", "trousers")):
             if material and part in row["painted"]:

@@ -29,7 +29,7 @@ _THROWN_M = 2.0
 """Greatest extent of what is thrown, caught or kicked, m."""
 _SWITCHED_S = 1.0
 """Time at which a lamp is switched of which no time is said."""
-_CARRYING = nouns_with("carries people") | nouns_with("seat") | {"rocking horse"}
+_CARRYING = nouns_with("carries people") | nouns_with("seat") | nouns_with("ridden in place")
 _ALONG = ("push", "pull", "knock over")
 """Relations of what goes by itself."""
 
@@ -84,6 +84,11 @@ class Abilities:
     def goes(self, index: int) -> bool:
         """Whether an object is said to go somewhere, by itself or as what it rides."""
         return bool(self.does([index]) & {*MEANS, "move", "roll", "slide", "crawl"})
+
+    def is_lamp(self, index: int) -> bool:
+        """Whether an object shines, as it is said to do."""
+        thing = self.things[index]
+        return thing["noun"] in LAMPS and bool({"blink_hz", "switch_s"} & thing.keys())
 
     def rides(self, index: int) -> bool:
         """Whether an object is on what is ridden: "two men on motorcycles"."""
@@ -169,6 +174,7 @@ class Abilities:
             )
             is_moved &= verb.relation not in ACTED or not self._are_moved(subjects, objects)
             is_moved &= verb.relation != "ride" or all(map(self.may_carry, objects))
+            is_moved &= not needs_body or not self.names(objects) & word_set("things", "tables")
             is_moved &= verb.relation != "move over"
             is_moved &= verb.relation != "beside" or not is_acting  # no hand only stands by
             return bool(verb.relation) and (is_acting or not needs_hands) and is_moved

@@ -48,6 +48,10 @@ def stack(draft: SceneDraft, own: int) -> None:
         part["relations"] = [{"kind": "on", "to": (index,)}]
 
 
+_SWITCH_S = 0.4
+"""Time from one lamp to the next, s."""
+
+
 def take_turns(draft: SceneDraft, own: int) -> None:
     """Let copies of an object begin one after the other; what topples stands in a row."""
     thing = draft.things[own]
@@ -61,6 +65,17 @@ def take_turns(draft: SceneDraft, own: int) -> None:
         part |= {"heading_deg": 0.0} if is_row else {}
         row = {"kind": "right of", "to": (own,), "distance_m": round(1.05 * number * height, 6)}
         part["relations"] += [row] if is_row and number else []
+
+
+def switch_in_turn(draft: SceneDraft, own: int) -> bool:
+    """Switch copies of a lamp one after the other; False: it is none that is switched."""
+    thing = draft.things[own]
+    if "switch_s" not in thing or thing["count"] < 2:
+        return False
+    parts = [thing, *(part_off(draft, own, 1) for _ in range(thing["count"] - 1))]
+    for number, part in enumerate(parts):
+        part["switch_s"] = round(_SWITCH_S * (number + 1), 6)
+    return True
 
 
 def halve(draft: SceneDraft, own: int) -> None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, get_args
 
 from texvent_scenes.description import Claim
+from texvent_scenes.models.activities import SAT
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with
@@ -286,6 +287,8 @@ def add_motion(thing: dict[str, Any], act: VerbSense, *, goes_on: bool = False) 
     is_posture = act.kind not in (*MEANS, "move")
     if goes_on and is_posture and (last["kind"] == "stand" or last == {"kind": act.kind}):
         motions.pop()  # "stands reading"; "a roundabout with cars circling" on it
+    if last == {"kind": "sit"} and act.kind in SAT:
+        motions.pop()  # "sits at a piano and plays", on a stool that comes with it
     end_pace = None if act.kind == "stand" else act.end_pace
     said = {"kind": act.kind, "direction": act.direction, "end_pace": end_pace}
     motion = {name: value for name, value in said.items() if value is not None}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from texvent_scenes.description import SEEN
@@ -68,30 +68,25 @@ def _pace_before(draft: SceneDraft, token: Token) -> dict[str, Any]:
     return {"pace": value}
 
 
+def _is_room_again(head: Token, place: Mapping[str, Any]) -> bool:
+    """Whether "the room" is the one that was named: "a robot in a laboratory. The room is dark"."""
+    return head.text == "room" and "name" in place and is_room(place["name"])
+
+
 def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> None:
     """As "on a snowy road", "a red sky", "a mountain road"; a second place is far off."""
     place = draft.parts["place"]
     name = head.all("place")[0].value
-    is_room_again = head.text == "room" and "name" in place and is_room(place["name"])
-    name = place["name"] if is_room_again else name
+    name = place["name"] if _is_room_again(head, place) else name
     is_it = name in ("sky", place.get("name", name))
     for token in group.modifiers:
-        field, value = token.value("field")
-        if token.text == "dark":
-            draft.parts["light"].setdefault("kind", "night")
-            if name == "plain":
-                place |= {"colour": "black", "sky": "black"}
-        elif field == "colour" and is_it and not is_room(name):
-            place["sky" if name == "sky" else "colour"] = value
-        elif not (token.has("partitive") or set_scene(draft, token)):
-            continue
-        draft.show(token)
+        _say_of_place(draft, token, name, is_it=is_it)
     if name == "plain":  # "a plain black background": alone, the word has several senses
         said = (one for one in draft.tokens if one.text == name and one.at < head.at)
         draft.show(*(one for one in said if head.at - one.at <= len(group.modifiers) + 1))
     draft.show_inherent(group.unknown, name)
     for token in group.unknown:
-        _fill_place(draft, token, name)
+        _fill_place(draft, token, (head.text, name))
     set_scene(draft, head)
     is_said = bool(group.modifiers) and relation not in ("in", "on", "through")
     is_bare = name == "sky" and not relation and "name" not in place
@@ -106,6 +101,20 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
         head.is_liquid and place["name"] in word_set("things", "waters")
     ):  # fmt: skip
         draft.mark(head, name if head.text in word_set("things", "stand_ins") else "shown")
+
+
+def _say_of_place(draft: SceneDraft, token: Token, name: str, *, is_it: bool) -> None:
+    """Apply an adjective of a place: a colour, "dark" or a word of light and weather."""
+    place, (field, value) = draft.parts["place"], token.value("field")
+    if token.text == "dark":
+        draft.parts["light"].setdefault("kind", "night")
+        if name == "plain":
+            place |= {"colour": "black", "sky": "black"}
+    elif field == "colour" and is_it and not is_room(name):
+        place["sky" if name == "sky" else "colour"] = value
+    elif not (token.has("partitive") or set_scene(draft, token)):
+        return
+    draft.show(token)
 
 
 def go_inside(draft: SceneDraft, group: Group, relation: str, owners: Sequence[int]) -> bool:
@@ -133,10 +142,11 @@ def leave_sky(draft: SceneDraft) -> bool:
     return on_ground
 
 
-def _fill_place(draft: SceneDraft, token: Token, place: str) -> None:
+def _fill_place(draft: SceneDraft, token: Token, names: Sequence[str]) -> None:
     """Add those of whom a place is full: "a busy street"."""
     full = word_table("brings")
-    brought = full.get(f"{token.text} {place}") or full.get(token.text, {})
+    said = (full.get(f"{token.text} {one}") for one in names)
+    brought = next(filter(None, said), full.get(token.text, {}))
     for noun, count in brought.items():
         draft.show(token)
         draft.claim(token, SEEN, "", [draft.add(noun, count)])

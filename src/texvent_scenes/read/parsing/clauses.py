@@ -137,7 +137,9 @@ class _Parser(GroupReader):
         is_part = any(one.picks for one in clause.subjects)
         if is_part and clause.verb is None and token.has("verb"):
             return Clause(about="same")  # "two balls, one red and one blue, collide"
-        takes = {each for one in token.verbs("ing") for each in (one.value.relation, one.value.kind)}
+        takes = {
+            each for one in token.verbs("ing") for each in (one.value.relation, one.value.kind)
+        }
         is_act = bool(takes & word_set("things", "done_to"))
         if clause.verb is not None and token.verbs("ing") and (is_act or not after.has("noun")):
             return Clause(about="meanwhile")  # "sits, reading", "sits, feeding ducks"

@@ -6,6 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 from texvent_scenes.models.activities import PERSON_NOUNS, TIMED
 from texvent_scenes.models.effects import LAMPS
@@ -184,10 +185,9 @@ def _see_beside(token: Token, tokens: Sequence[Token]) -> Token:
     others |= {re.sub(r"['’]s$", "", one.text) for one in tokens}
     others |= {one.value[1] for each in tokens for one in each.all("pose")}
     others |= {one.value.kind for each in tokens for one in each.all("verb")}
-    before = _words_before(token, tokens)
-    row = next((one for one in rows if others & {*one.get("nouns", others)}
-                and others.isdisjoint(one.get("without", ()))
-                and any(before.endswith(f"{led} ") for each in one.get("led", [""]) for led in expand(each))), None)  # fmt: skip
+    row = next(
+        (one for one in rows if _speaks_for(one, others, _words_before(token, tokens))), None
+    )
     is_led = token_at(tokens, token.at - 1).has("articles", "field")  # no camera's "pan"
     if row is None or not (senses or token.is_unknown or is_led):
         return token
@@ -198,6 +198,14 @@ def _see_beside(token: Token, tokens: Sequence[Token]) -> Token:
         sense, is_plural=sense.is_plural or token.text in list_plurals(sense.noun or "-")
     )
     return replace(token, senses=(Sense("noun", sense),) if sense.noun else ())
+
+
+def _speaks_for(row: Mapping[str, Any], others: Collection[str], before: str) -> bool:
+    """Whether the other words of a prompt, and those right before, speak for a row's noun."""
+    led = [one for each in row.get("led", [""]) for one in expand(each)]
+    is_beside = bool({*others} & {*row.get("nouns", others)})
+    is_beside &= {*others}.isdisjoint(row.get("without", ()))
+    return is_beside and any(before.endswith(f"{one} ") for one in led)
 
 
 def _words_before(token: Token, tokens: Sequence[Token]) -> str:

@@ -32,6 +32,8 @@ from texvent_scenes.read.parsing.quantities import (
 )
 from texvent_scenes.words import find_literals
 
+_OF_PARTICLES = ("plain", "lamp", "machine")
+"""Who does what is no verb with a particle before a noun: "comes down the road"."""
 _NEAR = 4
 """Words after a light verb among which what is done is named."""
 MOST_WORDS = 1000
@@ -341,7 +343,7 @@ def _without_chance(
         and (one.kind != "scene" or one.value[1] != "view" or after == "that"
              or after not in articles | {"to"})
         and not (after in articles and one.kind == "field" and one.value[0] == "is_lit")
-        and not (after in articles and one.kind == "verb" and one.value.who in ("plain", "lamp", "machine")
+        and not (after in articles and one.kind == "verb" and one.value.who in _OF_PARTICLES
                  and one.value.relation is None and words[end] in word_set("things", "particles")
                  and not _is_switched(one.value.who, words[end + 1 : end + 5]))
     )  # fmt: skip

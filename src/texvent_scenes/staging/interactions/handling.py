@@ -22,6 +22,8 @@ from texvent_scenes.staging.tracks.track import rotation
 
 _BEGUN_S = 0.1
 """Instant at which an act of a part of the thing begins."""
+_ASLANT_M = 0.09
+"""Most distance ahead of what is beside it on a bench, so that none hides the others, m."""
 _APART = 1.15
 """Distance of things side by side, in their widths."""
 
@@ -40,8 +42,9 @@ def handle(subject: Actor, target: Actor, number: int = 0) -> tuple[Actor, Actor
     is_before = upon.at == "front"
     offset = _before(upon, subject, target) if is_before else _at(upon, subject, target)
     aside = (number + 1) // 2 * (-1.0 if number % 2 else 1.0) * _APART
-    row = np.array([float(upon.at == "ground"), 1.0, 0.0])  # on a bench aslant: none hides others
-    offset = offset + np.outer(aside * target.model.width * row, [0.0, 0.0, 0.0, 1.0])
+    across_m = aside * target.model.width
+    along_m = math.copysign(min(abs(across_m), _ASLANT_M), across_m) * (upon.at == "ground")
+    offset = offset + np.outer([along_m, across_m, 0.0], [0.0, 0.0, 0.0, 1.0])
     place = "ground" if is_before else upon.at
     kept = target.track.at(0.0).activity
     is_upright = not (is_tool(target) and place.endswith("hand"))

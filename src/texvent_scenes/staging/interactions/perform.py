@@ -265,6 +265,10 @@ def _implied_acts(
 
 def _give_motion(rider: SceneObject, ridden: SceneObject, nouns: Mapping[str, Noun]) -> SceneObject:
     """Ridden object with the motion that the prompt gives to it or to its rider."""
+    if ridden.noun in nouns_with("ridden in place"):
+        return replace(
+            ridden, motions=(Motion("work" if nouns[ridden.noun].is_working else "tilt"),)
+        )
     said = ridden.motion if ridden.motion is not None and ridden.motion.is_moving else rider.motion
     usual = nouns[ridden.noun].motion
     if nouns[ridden.noun].habitat == "fixed" or usual == "roll":
@@ -393,20 +397,18 @@ def _carry_along(
     cast: dict[int, Actor], placed: Mapping[int, Actor], relations: Sequence[IndexedRelation]
 ) -> None:
     """Let what stands on a thing, or lies in it, go with it where an act moves that."""
+    starts = {n: one.track.at(0.0).to_world() for n, one in placed.items()}
     for each in (one for one in relations if one.kind in ("on", "in")):
         below = [n for n, one in cast.items() if one.object_index in each.targets]
-        for number, one in list(cast.items()) if below else ():
-            start = placed[number].track.at(0.0).to_world()
-            under = min(below, key=lambda n: float(
-                np.linalg.norm(placed[n].track.at(0.0).to_world()[:, 3] - start[:, 3])))  # fmt: skip
-            is_left = one.track is placed[number].track
-            if one.object_index != each.subject or not is_left:
-                continue
-            if cast[under].track is not placed[under].track:
-                frame, own = (np.vstack([at, [0.0, 0.0, 0.0, 1.0]])
-                              for at in (placed[under].track.at(0.0).to_world(), start))  # fmt: skip
-                path = attached(cast[under].track, np.linalg.solve(frame, own)[:3])
-                cast[number] = replace(one, track=path, is_mover=True)
+        own = [n for n, one in cast.items() if one.object_index == each.subject]
+        for number in own if below else ():
+            off = {n: float(np.linalg.norm(starts[n][:, 3] - starts[number][:, 3])) for n in below}
+            under = min(below, key=off.__getitem__)
+            is_left = cast[number].track is placed[number].track
+            if is_left and cast[under].track is not placed[under].track:
+                frame, at = (np.vstack([starts[n], [0.0, 0.0, 0.0, 1.0]]) for n in (under, number))
+                path = attached(cast[under].track, np.linalg.solve(frame, at)[:3])
+                cast[number] = replace(cast[number], track=path, is_mover=True)
 
 
 def _swing_riders(cast: dict[int, Actor], relations: Sequence[IndexedRelation]) -> None:

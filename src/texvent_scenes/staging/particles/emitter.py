@@ -69,6 +69,10 @@ class Lives:
         return cycles - number, self.draws[rows, number.astype(np.int64) % GENERATIONS]
 
 
+_STAYS = 0.2
+"""Share of the extents of what comes down everywhere up to which the camera stays in it."""
+
+
 class _Flown(NamedTuple):
     """Particles at an instant."""
 
@@ -237,9 +241,28 @@ class Emitter:
             apart = 9.0 * size * draws[:, 4:5] * (style.body != "medium")
             eddies = turbulence(places + apart, time_s, _EDDY * size, _EDDY_HZ / unit_s)
             places += style.curl * size * age[:, None] * eddies
+        places = self._around_view(places, time_s)
         if style.body == "drop":
             is_there &= places[:, 2] > self.floor_m - style.radius[1] * size
         return _Flown(places, heading, age, flown_s, draws, is_there)
+
+    def _around_view(self, places: Float64Array, time_s: float) -> Float64Array:
+        """Places, [n, 3] m, of what comes down everywhere, around what the camera looks at then.
+
+        Particles stay where they are in the world, and those that are left behind are ahead.
+        """
+        fills, size = self.style.fills, self.source.size_m
+        if self.source.actor is not None or fills is None or min(fills[:2]) < 1.0:
+            return places
+        track, size_xy = self.setting.camera, size * np.array(fills[:2])
+        camera = track.at(time_s)
+        looked = camera.position + track.framing.distance_m * camera.rotation[2]
+        moved = (looked - track.framing.target)[:2]
+        if (np.abs(moved) < _STAYS * size_xy).all():
+            return places
+        off = places[:, :2] - self.source.fixed[:2] - moved
+        places[:, :2] -= size_xy * np.round(off / size_xy)
+        return places
 
     def _offsets(self, draws: Float64Array) -> Float64Array:
         """[n, 3] from the source's point to where particles start, in its body's axes, m."""

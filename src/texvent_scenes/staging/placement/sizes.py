@@ -63,7 +63,7 @@ class Sizes:
         )
 
     def _fit_on(self, index: int) -> tuple[float, list[str]]:
-        """Share at which several things, or a solid of any size, find room on what they are put on."""
+        """Share at which several things, or a solid of any size, find room on what is below."""
         said, objects = self._description.objects[index], self._description.objects
         noun = dressed(self._description, index, self._nouns)
         targets = [one.targets[0] for one in self._description.relations

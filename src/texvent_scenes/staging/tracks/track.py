@@ -33,6 +33,7 @@ Grips = tuple[tuple[str, Vector], ...]
 TO_CAMERA = -0.5 * math.pi
 """Yaw of what shows its front to the camera."""
 _SAMPLES = 41
+_KEPT = 512
 
 
 @dataclass(frozen=True)
@@ -251,8 +252,21 @@ class Track:
             knots.append(knot)
         return knots
 
+    @cached_property
+    def _states(self) -> dict[float, BodyState]:
+        """The last states that were asked for: cameras and checks ask for the same ones often."""
+        return {}
+
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
+        found = self._states.get(time_s)
+        if found is None:
+            if len(self._states) >= _KEPT:
+                self._states.clear()
+            found = self._states[time_s] = self._state(time_s)
+        return found
+
+    def _state(self, time_s: float) -> BodyState:
         if self.anchor is not None and self.grab_s <= time_s < self.release_s:
             state = self.anchor.at(time_s)
         else:
