@@ -234,7 +234,7 @@ def _set_far(description: SceneDescription) -> SceneDescription:
     if all(one.noun in towering for one in objects):
         return description
     far = (n for n, one in enumerate(objects)
-           if one.noun in towering and one.placement is one.position_m is None)  # fmt: skip
+           if one.noun in towering and (one.placement, one.position_m) == (None, None))  # fmt: skip
     return _change(description, {n: replace(objects[n], placement="far") for n in {*far} - related})
 
 
