@@ -11,7 +11,7 @@ from dataclasses import replace
 
 from texvent_scenes.default_places import AFLOAT_MOTIONS, AT_HAND, choose_place
 from texvent_scenes.description import SPIN_RATE_HZ, STANDING, IndexedRelation, SceneDescription
-from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS, TRAVELLING
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.places import PLACES, is_room
 from texvent_scenes.models.protocol import Noun
@@ -36,6 +36,9 @@ _ALONG = frozenset({"walk", "run", "drive", "roll", "fly", "crawl", "slide"})
 _ROCKING = 0.5
 """Pace at which what floats rocks on waves, as a share of that of a sway."""
 _DARK_EFFECTS = frozenset({"fireworks", "fireflies"})
+_GOES = frozenset({"drive", "fly", "sail", "paddle", "slide", "roll", "reverse"})
+_ROUTES = frozenset({"past", "overtake", "through", "towards", "away from", "from", "follow"})
+"""Relations of what goes somewhere."""
 _STRUCK_FAR = 5.0
 """Size of lightning that strikes far off."""
 
@@ -46,6 +49,7 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     What lives in the air or in water moves unless it is said to rest. When nothing moves, the
     first object that can move does what it usually does; when none can, the camera sways.
     """
+    description = description if description.prompt else _set_on_routes(description, nouns)
     description = _rest(_set_down(_strike_far(_set_far(_ground(description)))), nouns)
     objects = tuple(
         replace(one, motions=decide_motions(one.motions, nouns[one.noun]))
@@ -182,6 +186,44 @@ def _lead_companions(description: SceneDescription, nouns: Mapping[str, Noun]) -
         if motion is not None and motion.kind in ("walk", "run") and on_foot:
             led[to] = Motion(motion.kind, motion.direction)
     return _move(description, led)
+
+
+def _set_on_routes(
+    description: SceneDescription, nouns: Mapping[str, Noun]
+) -> SceneDescription:  # fmt: skip
+    """What a file sends on a route without a motion goes; who follows does so in the same legs."""
+    objects = description.objects
+    for one in (each for each in description.relations if each.kind in _ROUTES):
+        thing, to = objects[one.subject], objects[one.targets[0]]
+        noun, leader = nouns[thing.noun], nouns[to.noun]
+        if thing.motions or noun.speed_m_s <= 0.0 or noun.habitat == "fixed":
+            continue
+        motions: tuple[Motion, ...] = (Motion(_GOING.get(noun.motion, noun.motion)),)
+        if one.kind == "follow":
+            led = decide_motions(to.motions, leader)
+            motions = tuple(_after(each, noun, leader) for each in led)
+            thing = replace(thing, heading_deg=thing.heading_deg or to.heading_deg)
+        new = replace(thing, motions=motions)
+        objects = tuple(new if n == one.subject else each for n, each in enumerate(objects))
+    return replace(description, objects=objects)
+
+
+def _after(motion: Motion, noun: Noun, leader: Noun) -> Motion:
+    """A leg of who follows, as fast as that of its leader; it goes as it usually does."""
+    if motion.kind not in TRAVELLING and motion.kind not in _GOES:
+        return (
+            motion
+            if motion.kind in ("stand", "turn")
+            else replace(STANDING, start_s=motion.start_s)
+        )
+    speed = motion.speed_m_s
+    if speed is None:
+        own = trait_value("speeds", leader.name) or {}
+        speed = own.get(motion.kind, leader.speed_m_s) * motion.pace
+    is_on_foot = noun.motion == "walk" and motion.kind in ("walk", "run")
+    kind = motion.kind if is_on_foot else _GOING.get(noun.motion, noun.motion)
+    pace = motion.pace if motion.end_pace is not None else 1.0
+    return replace(motion, kind=kind, speed_m_s=speed, pace=pace)
 
 
 def _set_far(description: SceneDescription) -> SceneDescription:

@@ -127,3 +127,18 @@ def test_a_dry_run_refuses_no_existing_file_as_it_replaces_none(capsys):
     assert "note     the run needs --overwrite: there is already out.h5" in capsys.readouterr().err
     assert Path("out.h5").read_text(encoding="utf-8") == "mine"
     assert main(words) == 3
+
+
+def test_a_share_of_a_pair_of_a_scene_with_fast_light_tells_what_all_take(capsys):
+    Path("fast.toml").write_text(
+        '[[objects]]\nnoun = "box"\n[light]\nflicker_hz = 400\n[place]\nname = "plain"\n'
+    )
+    wanted = ["generate", "fast.toml", "--dry-run", "--duration", "0.2", "--sensor", "24x18"]
+    assert main(wanted) == 0
+    whole = capsys.readouterr().out
+    with mock.patch("texvent.cli.run.MOST_SECONDS", 0.0):
+        assert main(wanted) == 0
+    brief = capsys.readouterr().out
+    assert " (0." in brief
+    guess, true = (float(one.split()[1].replace(",", "")) for one in (brief, whole))
+    assert 0.2 * true < guess < 5.0 * true

@@ -179,3 +179,31 @@ def test_what_is_between_things_at_stated_places_is_in_their_middle(row):
     description = complete(to_description(Scene(objects=(*ends, own))), NOUNS)
     placer = ObjectPlacer(description, NOUNS, seed=3, duration_s=2.0, level_m=LEVELS)
     assert placer.place_all()[2].track.at(0.0).position[:2] == pytest.approx((0.0, 8.0), abs=0.05)
+
+
+@for_every(itertools.product(("drone", "box", "chair", "man"), (0.25, 0.5, 1.5), (0.8, 1.0)))
+def test_a_spin_between_stated_times_turns_as_often_as_its_rate_says(row):
+    noun, rate_hz, start_s = row
+    motions = (Motion("stand"), Motion("spin", rate_hz=rate_hz, start_s=start_s),
+               Motion("stand", start_s=start_s + 1.0))  # fmt: skip
+    track = place(SceneObject(noun, position_m=(0.0, 0.0), motions=motions), start_s + 2.0)
+    turned = track.at(start_s + 2.0).yaw - track.at(0.0).yaw
+    assert abs(turned) == pytest.approx(math.tau * rate_hz, abs=1e-3)
+
+
+LED = [("man", "walk", "dog"), ("car", "drive", "bus"), ("woman", "run", "child"),
+       ("drone", "fly", "bird"), ("car", "drive", "motorcycle")]  # fmt: skip
+
+
+@for_every(itertools.product(LED, (None, 1.5), (None, 0.5)))
+def test_who_follows_in_a_file_goes_as_far_as_who_leads(row):
+    (leader, kind, follower), speed, start_s = row
+    motions = (Motion(kind, "right", speed_m_s=speed, start_s=start_s),)
+    one = SceneObject(leader, position_m=(0.0, 4.0), motions=motions)
+    own = SceneObject(follower, relations=(Relation("follow", (leader,)),))
+    description = complete(to_description(Scene(objects=(one, own))), NOUNS)
+    placer = ObjectPlacer(description, NOUNS, seed=3, duration_s=2.0, level_m=LEVELS)
+    ways = [each.track.at(2.0).position[0] - each.track.at(0.2).position[0]
+            for each in placer.place_all()]  # fmt: skip
+    assert ways[0] > 0.5
+    assert ways[1] == pytest.approx(ways[0], rel=0.05)

@@ -77,7 +77,9 @@ def _reverse(before: Key, last: Key, turn_rad: float, span_s: float) -> list[Key
     ]
 
 
-def centre_change(last: Sequence[Key], key: Key, *, is_act: bool) -> tuple[list[Key], Key]:
+def centre_change(
+    last: Sequence[Key], key: Key, *, is_act: bool, is_spin: bool
+) -> tuple[list[Key], Key]:
     """The last keys and the next one, half of whose change of speed comes before its time.
 
     So a body is where legs without easing end: what starts or stops at a time and a place that
@@ -88,12 +90,15 @@ def centre_change(last: Sequence[Key], key: Key, *, is_act: bool) -> tuple[list[
         key: the next one, on a straight line too.
         is_act: whether something is done in it that begins at its time, when half of the speed is
             gone.
+        is_spin: whether one of them turns on the spot all along.
     """
     *before, one = last
     is_plain = all(
-        not (each.turn_rad_s or each.hop_m or each.swing_hz) and each.restitution is None
+        not ((each.turn_rad_s and not is_spin) or each.hop_m or each.swing_hz)
+        and each.restitution is None
         for each in (one, key)
     )
+    is_plain &= not (is_spin and (one.speed_m_s or key.speed_m_s))
     if one.rates == key.rates or not is_plain or one.pitch_rad != key.pitch_rad:
         return [*last], key
     is_even = bool(before) and before[-1].rates == one.rates
@@ -105,9 +110,11 @@ def centre_change(last: Sequence[Key], key: Key, *, is_act: bool) -> tuple[list[
     if key.speed_m_s or key.climb_m_s or not is_act:
         longer = replace(key, duration_s=key.duration_s + 0.5 * ramp_s, ramp_s=ramp_s)
         return [*before, shorter], longer
-    half = replace(one, duration_s=0.5 * ramp_s, ramp_s=0.5 * ramp_s,
-                   speed_m_s=0.5 * one.speed_m_s, climb_m_s=0.5 * one.climb_m_s)  # fmt: skip
-    return [*before, shorter, half], replace(key, ramp_s=0.5 * ramp_s)
+    half_s, rates = 0.5 * ramp_s, (one.speed_m_s, one.turn_rad_s, one.climb_m_s)
+    speed, turn, climb = (0.5 * rate for rate in rates)
+    half = replace(one, duration_s=half_s, ramp_s=half_s, speed_m_s=speed, turn_rad_s=turn,
+                   climb_m_s=climb)  # fmt: skip
+    return [*before, shorter, half], replace(key, ramp_s=half_s)
 
 
 def _solve(whole_s: float, turn_rad: float, speeds: tuple[float, float]) -> list[Key]:

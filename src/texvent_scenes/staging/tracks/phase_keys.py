@@ -188,7 +188,7 @@ class _KeyBuilder:
         self._is_mobile = noun.speed_m_s > 0.0 and noun.habitat != "fixed"
         self._height = start_m or 0.0
         self._heading = yaw
-        self._is_beginning = True
+        self._is_beginning, self._is_spinning = True, False
         self._acts = ACTIVITIES.keys() if noun.name in PERSON_NOUNS else noun.acts | _AT_REST
         self.keys = [Key(0.0)]
         self.terms: list[Term] = []
@@ -200,6 +200,7 @@ class _KeyBuilder:
         """Append the keys of one phase."""
         motion, span = phase.motion, phase.duration_s
         self._is_beginning = True
+        self._was_spinning, self._is_spinning = self._is_spinning, motion.kind == "spin"
         if motion.direction in SWINGS and motion.kind in STEERED:
             key = to_and_fro(motion, abs(self._speed(motion)), span, self._model)
             self._start(key.speed_m_s)
@@ -250,11 +251,13 @@ class _KeyBuilder:
     def _append(self, key: Key) -> None:
         before = self.keys[-1].turn_rad_s
         span, turn, ramp = key.duration_s, key.turn_rad_s, key.ramp_s
-        self._heading += turn * span + 0.5 * (before - turn) * min(ramp, span)
         self._height += key.climb_m_s * span
+        turned, stated = turn * span + 0.5 * (before - turn) * min(ramp, span), key
         if self._is_beginning and not self._is_first:
             is_act = key.activity != self.keys[-1].activity and key.activity in self._acts
-            self.keys[-2:], key = centre_change(self.keys[-2:], key, is_act=is_act)
+            is_spin = self._is_spinning or self._was_spinning
+            self.keys[-2:], key = centre_change(self.keys[-2:], key, is_act=is_act, is_spin=is_spin)
+        self._heading += turned if key is stated else turn * span
         self._is_beginning = False
         self.keys.append(key)
 
