@@ -1,12 +1,29 @@
 import math
+import statistics
 
-from texvent_lab.bench.summary import normalise, summarise
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from texvent_lab.bench.summary import mean_text, normalise, summarise
+
+VALUES = st.sampled_from([math.nan, math.inf, -math.inf, 0.0]) | st.floats(-1e6, 1e6)
 
 
-def test_summary_counts_undefined_values_instead_of_replacing_them():
-    summary = summarise([1.0, math.nan, 2.0, 3.0])
-    assert (summary.mean, summary.defined, summary.undefined) == (2.0, 3, 1)
-    assert math.isclose(summary.standard_error, 1 / math.sqrt(3))
+@given(st.lists(VALUES, max_size=6))
+def test_a_summary_is_of_all_that_is_a_number_and_counts_the_rest(values):
+    """Infinity is a value: that of a distance to a recording without events."""
+    known = [one for one in values if not math.isnan(one)]
+    mean = sum(known) / len(known) if known else math.nan
+    is_spread = len(known) > 1 and all(map(math.isfinite, known))
+    error = statistics.stdev(known) / math.sqrt(len(known)) if is_spread else math.nan
+    close = {"rel": 1e-6, "abs": 1e-6, "nan_ok": True}
+    assert summarise(values) == (
+        pytest.approx(mean, **close), pytest.approx(error, **close),
+        len(known), len(values) - len(known),
+    )  # fmt: skip
+    text = mean_text(values)
+    assert (text == "–", "±" in text) == (not known, len(known) > 1)
 
 
 def test_normalised_score_is_one_at_the_floor_and_zero_at_the_null():

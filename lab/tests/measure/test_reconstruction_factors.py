@@ -111,6 +111,11 @@ def test_what_cannot_be_changed_is_refused(folder, changes, message):
 def test_each_factor_has_a_training_of_its_own(folder):
     found = trainings(folder / "factors.toml", folder / "work", None)
     assert list(found) == ["as it is", "threshold .4", "frame times", "streamed", "esim"]
+    kept = [config.data.specification for config in found.values()]
+    assert len(set(kept)) == len(kept)
+    for some in (["streamed"], ["esim", "frame times"]):  # each as among all
+        chosen = trainings(folder / "factors.toml", folder / "work", some)
+        assert chosen == {name: found[name] for name in some}
     slow = read_specification(found["frame times"].data.specification)
     assert slow.options["fps"] == 40
     assert found["esim"].data.variant == "esim"

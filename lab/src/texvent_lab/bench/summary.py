@@ -17,13 +17,14 @@ class Summary(NamedTuple):
     mean: float
     """Mean of the defined values; NaN if there is none."""
     standard_error: float
-    """Standard error of that mean; NaN below two values."""
+    """Standard error of that mean; NaN below two values, or where one is infinite."""
     defined: int
     """Values that entered the mean (n)."""
     undefined: int
     """Values that were NaN and did not enter the mean."""
 
 
+@np.errstate(invalid="ignore")  # infinite values have no spread
 def summarise(values: Iterable[float]) -> Summary:
     """Mean ± standard error over scenes or seeds; an undefined value is counted, not replaced.
 

@@ -34,25 +34,26 @@ def test_the_path_rests_at_both_ends_and_scales():
     assert corner(100, speed=1.1) == pytest.approx(corner(110))
 
 
-def slow_render(image, black, x, y):
+def slow_render(light, black, x, y):
     """A pixel's mean over its area, in 32×32 samples, of a digit with its corner at (x, y)."""
     samples = (np.arange(34 * 32) + 0.5) / 32
     column, row = np.floor(samples - x).astype(int), np.floor(samples - y).astype(int)
     inside = ((row >= 0) & (row < 28))[:, None] & ((column >= 0) & (column < 28))[None]
-    cover = np.where(inside, image[row.clip(0, 27)][:, column.clip(0, 27)] / 255, 0.0)
+    cover = np.where(inside, light[row.clip(0, 27)][:, column.clip(0, 27)], 0.0)
     return black + (255 - black) * cover.reshape(34, 32, 34, 32).mean(axis=(1, 3))
 
 
-def test_pixels_are_means_over_their_area():
-    images = figures(3, 0)
-    shift = np.array([[0.25, -0.5], [-1.0, 1.0], [0.0, 0.0]])
-    digits = Digits(images, np.ones(3), np.ones(3), shift, np.array([20.0, 30.0, 40.0]))
-    sheet = DigitSheet(digits)
-    at_ms = 150
+@pytest.mark.parametrize("at_ms", [0, 120, 150])
+@pytest.mark.parametrize("field", [{}, {"gamma": 2.2}, {"lead_ms": 17.0}])
+def test_pixels_are_means_over_their_area_of_what_every_field_says(field, at_ms):
+    images, speed = figures(3, 0), np.array([1.0, 0.9, 1.1])
+    shift, amplitude = np.array([[0.25, -0.5], [-1.0, 1.0], [0.0, 0.0]]), np.array([1.2, 1.0, 0.8])
+    digits = Digits(images, amplitude, speed, shift, np.array([20.0, 30.0, 40.0]), **field)
+    sheet, gamma, lead_ms = DigitSheet(digits), field.get("gamma", 1), field.get("lead_ms", 0)
     tiles = sheet.cut(sheet.at(1000 * at_ms).pixels)
     for number, tile in enumerate(tiles):
-        x, y = corner(at_ms) + shift[number]
-        expected = slow_render(images[number], digits.black[number], x, y)
+        x, y = corner(at_ms + lead_ms, speed[number], amplitude[number]) + shift[number]
+        expected = slow_render((images[number] / 255) ** gamma, digits.black[number], x, y)
         # 32 samples know an edge to 1/64 px, of at most 235 levels.
         np.testing.assert_allclose(tile, expected, atol=235 / 32)
         assert abs(tile.mean() - expected.mean()) < 0.1

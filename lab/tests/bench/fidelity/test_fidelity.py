@@ -17,7 +17,7 @@ from texvent_lab.bench.fidelity.oracle_run import FidelityPlan, record_truths, r
 from texvent_lab.bench.fidelity.results import read_report
 from texvent_lab.bench.fidelity.run import score_entry
 from texvent_lab.bench.fidelity.table import fidelity_tables
-from texvent_lab.bench.oracle.pixel import IDEAL, NOISY, PixelArray
+from texvent_lab.bench.oracle.pixel import IDEAL, NOISY, TARGETS, PixelArray
 from texvent_lab.bench.oracle.recording import SIZE, TrueFrames, oracle_scene, record
 from texvent_lab.bench.oracle.scenes import EXPOSURE
 
@@ -43,6 +43,24 @@ def report():
 def test_a_plan_of_a_name_that_nothing_has_is_refused(name):
     with pytest.raises(ConfigError, match="'nothing'"):
         FidelityPlan(**{name: ("nothing",)})
+
+
+def test_noise_differs_between_recordings_and_the_sensor_in_the_last_one_alone(monkeypatch):
+    class Asked(Exception):
+        pass
+
+    def ask(scene, sensors):
+        raise Asked(sensors)
+
+    monkeypatch.setattr("texvent_lab.bench.fidelity.oracle_run.record", ask)
+    with pytest.raises(Asked) as caught:
+        record_truths(dataclasses.replace(QUICK, targets=tuple(TARGETS)), "translate")
+    for target, model in TARGETS.items():
+        asked = [one for (name, _), one in caught.value.args[0].items() if name == target]
+        assert len({noise for _, noise in asked}) == len(asked) == 3
+        reference, floor, other = (pixels for pixels, _ in asked)
+        assert reference == floor == model
+        assert other == dataclasses.replace(model, sensor_seed=other.sensor_seed) != model
 
 
 @pytest.mark.long

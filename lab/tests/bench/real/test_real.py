@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from tests.capture.dsec_sequence import write_sequence
 
+from texvent.data.catalogue import DATA_SETS
 from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
@@ -15,6 +16,7 @@ from texvent_lab.bench.fidelity.table import fidelity_tables
 from texvent_lab.bench.page import page_files
 from texvent_lab.bench.real.recording import RecordingPart, adapt_settings, open_scene
 from texvent_lab.bench.real.run import HALVES, real_entries, run_real
+from texvent_lab.frame_recordings import WITH_FRAMES, locate_source
 
 METRICS = ("stpp", "count_ratio")
 ENTRIES = (
@@ -40,6 +42,21 @@ def test_the_first_half_is_fitted_and_whole_segments_of_the_second_are_scored(pa
     assert video.times_us[-1] >= scene.scored[0].stop_us
     later = open_scene(str(pan_folder), RecordingPart(start_s=0.2, offset_us=0))
     assert later.video.times_us[0] == 235_000
+
+
+@pytest.mark.parametrize("said", [None, 0, 700])
+def test_frames_of_a_data_set_are_shifted_by_its_offset_if_nothing_else_is_said(
+    pan_folder, monkeypatch, said
+):
+    monkeypatch.setattr("texvent_lab.frame_recordings.find_pulled", lambda name: pan_folder)
+    known = {str(pan_folder): 0} | {name: one.frame_offset_us for name, one in DATA_SETS.items()}
+    assert {name: locate_source(name) for name in known} == {
+        name: (pan_folder, offset_us) for name, offset_us in known.items()
+    }
+    for name in (str(pan_folder), *WITH_FRAMES):
+        scene = open_scene(name, RecordingPart(offset_us=said))
+        assert scene.offset_us == (known[name] if said is None else said)
+        assert scene.video.times_us[0] == 35_000 + scene.offset_us
 
 
 def test_motion_compensation_comes_closest_and_the_bounds_bound_it(report):
