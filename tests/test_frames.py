@@ -22,25 +22,28 @@ def test_frame_times_strictly_increase(index, fps):
     assert frame_time_us(index + 1, fps) > frame_time_us(index, fps)
 
 
-def test_convention_eight_bit_grey_stays_eight_bit():
-    grey = np.arange(6, dtype=np.uint8).reshape(2, 3)
-    assert Frame(grey, 0).luma.dtype == np.uint8
-    assert np.array_equal(Frame(grey, 0).luma, grey)
+PER_LEVEL = {"uint8": 1, "uint16": 257, "float32": 1, "float64": 1}
 
 
-def test_convention_sixteen_bit_levels_stay_distinct():
-    deep = np.array([[200 * 257, 200 * 257 + 1]], dtype=np.uint16)
-    luma = Frame(deep, 0).luma
-    assert luma.dtype == np.float32
-    assert luma[0, 0] == 200.0
-    assert luma[0, 0] < luma[0, 1] < 200.01
-
-
-def test_colour_luma_is_bt601_and_not_rounded():
-    red, green, blue = np.eye(3, dtype=np.uint8) * 255
-    luma = Frame(np.stack([red, green, blue])[None], 0).luma
-    assert luma[0].tolist() == pytest.approx([76.245, 149.685, 29.07])
-    assert Frame(np.full((1, 1, 3), 255, np.uint8), 0).luma[0, 0] == pytest.approx(255.0)
+@given(
+    st.sampled_from(sorted(PER_LEVEL)), st.sampled_from([(5, 3), (5, 3, 3)]), st.integers(0, 99),
+    st.sampled_from([1, 255]),
+)  # fmt: skip
+def test_convention_luma_of_every_type_is_bt601_from_0_to_255(name, shape, seed, most):
+    """Eight-bit grey stays eight-bit, and all else is not rounded."""
+    pixels = np.random.default_rng(seed).uniform(0, most * PER_LEVEL[name], shape).astype(name)
+    pixels[0], pixels[1] = 0, 255 * PER_LEVEL[name]
+    levels = pixels.astype(float) / PER_LEVEL[name]
+    expected = levels @ [0.299, 0.587, 0.114] if len(shape) == 3 else levels
+    frame = Frame(pixels, 0)
+    assert frame.luma.dtype == ("uint8" if expected is levels and name == "uint8" else "float32")
+    assert frame.luma.max() == pytest.approx(255.0)
+    for found, step in (
+        (frame.luma, 1),
+        (frame.float_luma, 1),
+        (Frame(pixels, 0).sampled_luma(2), 2),
+    ):
+        np.testing.assert_allclose(found, expected[::step, ::step], atol=1e-4)
 
 
 def test_a_video_in_memory_is_a_frame_stream_that_can_be_read_twice():

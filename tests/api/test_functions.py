@@ -2,13 +2,16 @@
 
 import subprocess
 import sys
+from functools import partial
+from inspect import signature
 
 import numpy as np
 import pytest
+import tomli_w
 
 import texvent
 from texvent.api.functions import compare
-from texvent.errors import InputError, TexventError
+from texvent.errors import ConfigError, InputError, TexventError
 from texvent_scenes import load_scene
 
 PROMPT = "a red ball bounces"
@@ -23,6 +26,45 @@ def events():
 @pytest.fixture(scope="module")
 def path(events, tmp_path_factory):
     return events.save(tmp_path_factory.mktemp("api") / "events.h5")
+
+
+WITH_CONFIG = {
+    "generate": partial(texvent.generate, PROMPT),
+    "simulate": partial(texvent.simulate, np.zeros((3, 4, 5), np.uint8), fps=10),
+    "video": partial(texvent.video, PROMPT),
+    "EventCamera": partial(texvent.EventCamera, (5, 4)),
+    "rig.record": partial(texvent.rig.record, PROMPT, "out"),
+}
+
+
+def test_every_public_function_that_reads_a_config_file_is_tried_below():
+    public = {name: getattr(texvent, name) for name in texvent.__all__}
+    public["rig.record"] = texvent.rig.record
+    hints = {
+        name: signature(one).parameters.get("config")
+        for name, one in public.items()
+        if callable(one) and not (isinstance(one, type) and issubclass(one, Exception))
+    }
+    assert {name for name, one in hints.items() if "Path" in str(one)} == {*WITH_CONFIG}
+
+
+@pytest.mark.parametrize("name", WITH_CONFIG)
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [({"contrast_threshold": 99.0}, "contrast_threshold is 99"),
+     ({"interpolate": "none!"}, "unknown interpolator 'none!'"),
+     ({"max_intermediat": 3}, "'max_intermediat'")],
+)  # fmt: skip
+def test_a_config_file_counts_wherever_it_is_given_as_do_options_beside_it(
+    tmp_path, monkeypatch, name, wrong, message
+):
+    monkeypatch.chdir(tmp_path)
+    for said, given in ((wrong, {}), (wrong, {"seed": 3}), ({"seed": 3}, wrong)):
+        (tmp_path / "c.toml").write_text(tomli_w.dumps(said))
+        with pytest.raises(ConfigError, match=message) as caught:
+            WITH_CONFIG[name](config="c.toml", **given)
+        assert ("c.toml" in str(caught.value)) == (said is wrong)
+    assert [one.name for one in tmp_path.iterdir()] == ["c.toml"]
 
 
 def test_the_name_of_a_scene_file_goes_where_a_prompt_goes(tmp_path, events):

@@ -1,9 +1,9 @@
 """The commands of an installed package: the first that fails ends them."""
 
 import pytest
-from tools import smoke
 
 from texvent.cli import app
+from tools import smoke
 
 
 @pytest.mark.parametrize("code", [0, 1, 130])

@@ -9,7 +9,7 @@ from tests.scenes.every_row import for_every
 from tests.scenes.golden.rows import usual_model
 from tests.scenes.raycast.intersect_reference import hit_shape_reference
 
-from texvent_scenes.models.anchors import locate, top_heights
+from texvent_scenes.models.anchors import find_rim, has_rim, locate, top_heights
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.protocol import ModelPart, Pose
 from texvent_scenes.models.skeleton import Anchor
@@ -40,6 +40,14 @@ def test_a_body_without_limbs_has_its_places_in_its_box_from_foot_to_crown(noun)
     np.testing.assert_allclose(right + left, [2.0 * left[0], 1.0, 2.0 * left[2]], atol=1e-9)
     assert 0.6 < left[1] <= 1.0  # y is to the left
     assert 0.9 < places["mouth"][0] <= 1.0  # x is ahead
+
+
+@for_every(sorted(filter(has_rim, NOUNS)))
+def test_a_rim_is_as_much_larger_as_its_model(name):
+    usual = find_rim(name, usual_model(NOUNS[name]))
+    for scale in (0.4, 1.0, 2.5):
+        found = find_rim(name, NOUNS[name].build(colour=None, scale=scale, seed=1))
+        np.testing.assert_allclose(found, scale * np.array(usual))
 
 
 # Steps of a micrometre: what divides by less overflows in the reference itself.

@@ -11,12 +11,12 @@ from texvent.errors import FileFormatError
 from texvent.truth.class_ids import CLASS_IDS, FIRST_OTHER
 from texvent_scenes.models.joints import Instant, read_joint, read_light
 from texvent_scenes.models.limbs import _held
-from texvent_scenes.models.materials import Material
+from texvent_scenes.models.materials import Material, share_of
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.part_lines import read_parts
 from texvent_scenes.models.parts import read_nouns
 from texvent_scenes.models.people.person import Rider
-from texvent_scenes.models.protocol import Pose
+from texvent_scenes.models.protocol import ModelPart, Pose
 from texvent_scenes.models.shapes import part
 from texvent_scenes.models.skeleton import _SLIVER_M, _clip
 from texvent_scenes.models.surfaces import read_surface, shared_surfaces
@@ -45,6 +45,24 @@ def test_every_noun_has_a_class_id():
     assert (CLASS_IDS["car"], CLASS_IDS["man"]) == (24, 67)
     # Numbers from `FIRST_OTHER` on are of names that are no nouns.
     assert max(CLASS_IDS.values()) < FIRST_OTHER
+
+
+@given(st.integers(0, 999), st.integers(1, 5))
+def test_a_share_of_a_surface_is_that_of_faces_however_its_parts_are_turned(seed, count):
+    rng = np.random.default_rng(seed)
+    sides, turns = (
+        rng.uniform(0.1, 2.0, (count, 3)),
+        np.linalg.qr(rng.normal(size=(count, 3, 3)))[0],
+    )
+    parts = [
+        ModelPart(Shape.BOX, np.column_stack([turn * side, rng.normal(size=3)]), (0, 0, 0))
+        for turn, side in zip(turns, sides, strict=True)
+    ]
+    faces = [np.prod(side) / min(side) for side in sides]
+    for number in range(count):
+        share = share_of(parts, lambda one: one is parts[number])  # noqa: B023
+        assert share == pytest.approx(faces[number] / sum(faces))
+    assert (share_of(parts, lambda one: True), share_of([], bool)) == (pytest.approx(1.0), 0.0)
 
 
 def one(line: str) -> np.ndarray:

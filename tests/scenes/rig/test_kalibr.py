@@ -12,6 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.errors import ConfigError, TexventWarning
+from texvent.io.calibration import MODELS, read_lens
 from texvent.lens import Lens
 from texvent.runtime.progress import NO_PROGRESS
 from texvent.sensor import SensorSize
@@ -242,7 +243,6 @@ def test_a_time_shift_is_named(tmp_path):
         ("[752, 480]", "[752.5, 480]", "whole numbers"),
         ("[752, 480]", "[0, 480]", r"each side must be 1\.\."),
         ("rostopic", "rostopik", "unknown name 'rostopik'"),
-        ("[-0.28, 0.07, 0.0002, 1.0e-05]", "[1, 2]", "has 2 numbers; radtan takes 4"),
         ("[0.9999, -0.0023", "[0.5, -0.0023", "no rigid motion"),
         ("  T_cn_cnm1:\n", "  baseline: 0.1\n  T_cn_cnm1:\n", "both state its place"),
         ("[0.0, -1.0, 0.0, 0.01]", "[0.0, -1.0, 0.0]", "must be 4 numbers"),
@@ -253,6 +253,23 @@ def test_what_is_wrong_is_named(tmp_path, old, new, words):
     assert old in KALIBR
     with pytest.raises(ConfigError, match=words):
         read_rig(write(tmp_path, KALIBR.replace(old, new, 1)), SIZE)
+
+
+@given(st.sampled_from(sorted(MODELS)), st.lists(st.sampled_from([0.0, 1e-3, -2e-3]), max_size=7))
+def test_every_coefficient_is_in_the_lens_or_is_refused(model, coefficients):
+    """A fifth one of 0 and no one are none."""
+    given, fifth = {"distortion_model": model, "distortion_coeffs": coefficients}, coefficients[4:]
+    given |= {"intrinsics": [300.0, 301.0, 170.0, 131.0]}
+    is_known = len(coefficients) in (0, 4) or fifth == [0.0]
+    if not is_known or (MODELS[model] == "none" and any(coefficients)):
+        message = (
+            "without distortion_model" if is_known else f"{len(coefficients)} numbers; {model}"
+        )
+        with pytest.raises(ConfigError, match=message):
+            read_lens(given, "a.yaml")
+        return
+    expected = (*coefficients, *4 * [0.0])[:4]
+    assert read_lens(given, "a.yaml") == Lens(300.0, 301.0, 170.5, 131.5, MODELS[model], expected)
 
 
 LENS = {"intrinsics": [110, 110, 120, 90], "resolution": [240, 180]}

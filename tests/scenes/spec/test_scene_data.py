@@ -24,7 +24,14 @@ from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.scene_input import describe_scene, list_nouns, list_words
 from texvent_scenes.spec import scene as scene_module
 from texvent_scenes.spec.data import scene_from_data, scene_to_data
-from texvent_scenes.spec.files import json_schema, load_scene, save_scene, scene_text
+from texvent_scenes.spec.files import (
+    ENDINGS,
+    is_scene_file,
+    json_schema,
+    load_scene,
+    save_scene,
+    scene_text,
+)
 from texvent_scenes.spec.limits import Between, Colour, Word
 from texvent_scenes.spec.scene import (
     Camera,
@@ -323,16 +330,24 @@ def test_a_picture_lies_beside_its_file(tmp_path):
         describe_scene(scene, list_nouns())
 
 
-def test_a_written_scene_is_read_again(tmp_path):
+@pytest.mark.parametrize("name", ["car", "my car", "a red car drives left", "v1.2"])
+@pytest.mark.parametrize("case", [str.lower, str.upper, str.title, str.swapcase])
+@pytest.mark.parametrize("ending", ENDINGS)
+def test_a_written_scene_is_read_again_whatever_the_case_of_its_ending(
+    tmp_path, ending, case, name
+):
     scene = Scene(objects=(SceneObject(noun="car", motions=(Motion(kind="drive"),)),))
-    for name in ("car.toml", "car.json"):
-        save_scene(tmp_path / name, scene)
-        assert load_scene(tmp_path / name) == scene
-        (tmp_path / f"marked-{name}").write_text((tmp_path / name).read_text(), "utf-8-sig")
-        assert load_scene(tmp_path / f"marked-{name}") == scene
-    assert (tmp_path / "car.toml").read_text() == (
-        '[[objects]]\nnoun = "car"\nmotions = [{ kind = "drive" }]\n'
-    )
+    path = tmp_path / f"{name}{case(ending)}"
+    save_scene(path, scene)
+    assert [is_scene_file(one) for one in (path.name, name, f"{path.name} x")] == [True] + 2 * [
+        False
+    ]
+    assert load_scene(path) == scene
+    text = path.read_text()
+    if ending == ".toml":
+        assert text == '[[objects]]\nnoun = "car"\nmotions = [{ kind = "drive" }]\n'
+    path.write_text(text, "utf-8-sig")
+    assert load_scene(path) == scene
 
 
 def test_the_file_of_the_page_is_a_scene_and_there_are_twenty_more():

@@ -123,29 +123,26 @@ def test_what_comes_down_from_a_height_is_in_free_fall():
         np.testing.assert_allclose(steps, -9.81 * (times[1] - times[0]) ** 2, rtol=1e-6)
 
 
-MOVES = [(kind, name) for kind in get_args(MoveKind)
-         for name in ("direction", "pace", "means", "speed_m_s", "rate_deg_s")]  # fmt: skip
+STATED = {"speed_m_s", "rate_deg_s"}
+FIELDS = {"direction": None, "pace": 3.0, "means": "fly", "speed_m_s": 2.0, "rate_deg_s": 9.0}
+MOVES = [(kind, name, beside) for kind in get_args(MoveKind) for name in FIELDS for beside in FIELDS
+         if name == beside or beside in READ_BY_MOVES[kind]]  # fmt: skip
 
 
-@pytest.mark.parametrize(("kind", "name"), MOVES)
-def test_a_field_of_a_camera_move_changes_the_path_or_is_refused(kind, name):
+@pytest.mark.parametrize(("kind", "name", "beside"), MOVES)
+def test_a_field_of_a_camera_move_changes_the_path_or_is_refused(kind, name, beside):
+    """Alone, and beside each other one."""
     ways = (*DIRECTIONS_OF_MOVES.get(kind, ("left",)), None)
-    values = {
-        "direction": ways[0],
-        "pace": 3.0,
-        "means": "fly",
-        "speed_m_s": 2.0,
-        "rate_deg_s": 9.0,
-    }
-    scene = Scene(
-        objects=(SceneObject("box"),), camera=Camera((CameraMove(kind, **{name: values[name]}),))
-    )
-    if name not in READ_BY_MOVES[kind]:
-        with pytest.raises(ConfigError, match=rf"^camera\.moves\[0\]\.{name} has no effect: "):
+    given = {one: FIELDS[one] or ways[0] for one in (name, beside)}
+    scene = Scene(objects=(SceneObject("box"),), camera=Camera((CameraMove(kind, **given),)))
+    if name not in READ_BY_MOVES[kind] or ("pace" in given and given.keys() & STATED):
+        why = rf"^camera\.moves\[0\]\.({name}|{beside}) has no effect: "
+        with pytest.raises(ConfigError, match=why):
             describe_scene(scene, NOUNS)
         return
     described = describe_scene(scene, NOUNS)
-    usual = CameraMove(kind) if name != "direction" else CameraMove(kind, ways[1])
+    others = {**given, name: ways[1] if name == "direction" else 1.0 if name == "pace" else None}
+    usual = CameraMove(kind, **others)
     paths = []
     for move in (described.camera.moves[0], usual):
         camera = stage(SceneObject("box"), camera=Camera((move,))).camera

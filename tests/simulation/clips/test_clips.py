@@ -25,13 +25,14 @@ ALL = ClipOutputs(bins=4, intervals_per_window=2, counts=True, latest=True, even
 
 
 def some_clips(
-    height: int = HEIGHT, width: int = WIDTH
+    height: int = HEIGHT, width: int = WIDTH, *, longer_us: int = 0
 ) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
-    """[B, T + 1, H, W] uint8 that wanders but for a pause, and times."""
+    """[B, T + 1, H, W] uint8 that wanders but for a pause, perhaps a longer one, and times."""
     rng = np.random.default_rng(5)
     steps = rng.normal(0, 25, (CLIPS, INTERVALS + 1, height, width)).cumsum(axis=1)
     steps[:, 3] = steps[:, 2]
     gaps = rng.integers(900, 4000, (CLIPS, INTERVALS))
+    gaps[:, 2] += longer_us
     times_us = np.concatenate([np.zeros((CLIPS, 1), np.int64), gaps.cumsum(axis=1)], axis=1)
     return np.clip(90 + steps, 0, 255).astype(np.uint8), times_us
 
@@ -70,9 +71,11 @@ TILED = (3, TILE // 2 + 3)
 """Height and width of clips of two tiles, the last one of no whole words."""
 
 
+@pytest.mark.parametrize("longer_us", [0, 2_000_000, 2**31 - 30_000])
 @pytest.mark.parametrize(("refractory_us", "size"), [(0, (HEIGHT, WIDTH)), (900, TILED)])
-def test_without_noise_the_events_are_those_of_esim(refractory_us, size):
-    frames, times_us = some_clips(*size)
+def test_without_noise_the_events_are_those_of_esim(refractory_us, size, longer_us):
+    """Also late in the longest clips."""
+    frames, times_us = some_clips(*size, longer_us=longer_us)
     made = simulate_on_cpu(frames, times_us, pixels_of(REFRACTORY_US=refractory_us), ALL)
     config = EsimConfig(
         contrast_threshold_on=0.3, contrast_threshold_off=0.2, log_eps=LOG_EPS,

@@ -46,14 +46,14 @@ def test_a_plan_of_a_name_that_nothing_has_is_refused(name):
 
 
 def test_noise_differs_between_recordings_and_the_sensor_in_the_last_one_alone(monkeypatch):
-    class Asked(Exception):
+    class AskedError(Exception):
         pass
 
     def ask(scene, sensors):
-        raise Asked(sensors)
+        raise AskedError(sensors)
 
     monkeypatch.setattr("texvent_lab.bench.fidelity.oracle_run.record", ask)
-    with pytest.raises(Asked) as caught:
+    with pytest.raises(AskedError) as caught:
         record_truths(dataclasses.replace(QUICK, targets=tuple(TARGETS)), "translate")
     for target, model in TARGETS.items():
         asked = [one for (name, _), one in caught.value.args[0].items() if name == target]

@@ -73,6 +73,26 @@ def test_what_is_thrown_leaves_the_hand_when_it_is_let_go():
     assert gaps[2] > gaps[0] + 0.4
 
 
+@pytest.mark.parametrize(
+    "text",
+    ["a boy kicks a ball to a girl", "a boy throws a box to a dog", "a girl rolls a ball to a dog",
+     "a man throws a ball to a woman"],
+)  # fmt: skip
+def test_what_is_sent_to_somebody_turns_from_its_start_until_it_is_there(text):
+    track = next(one.track for one in staged(text)[0].actors if one.noun.name in ("ball", "box"))
+    *before, flown_s, _ = (key.duration_s for key in track.keys)
+    sent_s = sum(before)
+
+    def turned(*times):
+        states = [track.at(sent_s + share * flown_s) for share in times]
+        return np.diff([[one.roll, one.pitch, one.yaw] for one in states], axis=0)
+
+    steps = turned(0.0, 0.02, 0.3, 0.32, 0.6, 0.62, 0.97, 0.99)[::2]
+    assert np.linalg.norm(steps[0]) > 0.05
+    np.testing.assert_allclose(steps, np.broadcast_to(steps[0], steps.shape), atol=1e-9)
+    np.testing.assert_allclose(turned(1.001, 1.05, 1.1), 0.0, atol=1e-9)
+
+
 @pytest.mark.parametrize("what", ["bottle", "umbrella", "box"])
 @pytest.mark.parametrize("motion", [None, WALK_RIGHT])
 def test_any_noun_can_be_held_and_stays_at_the_hands(what, motion):
