@@ -12,8 +12,10 @@ import pytest
 from texvent.errors import FileFormatError, TexventWarning
 from texvent.io.aedat import aedat4_container
 from texvent.io.aedat.aedat4_container import load_zstd, unpack_bz2, unpack_lz4, unpack_zstd
-from texvent.io.aedat.aedat4_tables import Table
-from texvent.io.files import load
+from texvent.io.aedat.aedat4_tables import Table, read_events
+from texvent.io.files import load, save
+
+from ..format_cases import CASE_OF, STREAMS
 
 
 @pytest.mark.parametrize("turns", [(0, 0, 1, 1), (1, 0, 0, 0), (0, 3, 0, 0)])
@@ -65,6 +67,24 @@ def test_lists_of_tables_are_read_a_part_at_a_time(monkeypatch, part):
 def test_a_list_that_grows_from_nothing_is_refused(data, message):
     with pytest.raises(FileFormatError, match=message):
         list(Table.root(struct.pack("<I", len(data) - 4) + data[4:], b"TRIG").columns(0, ["<i8"]))
+
+
+@pytest.mark.parametrize("name", STREAMS)
+def test_the_list_at_the_end_says_of_each_packet_what_it_holds(tmp_path, name):
+    """As a walk from packet to packet finds it: place, stream and length, events, times."""
+    events = STREAMS[name](CASE_OF["aedat4"])
+    data = save(tmp_path / "e.aedat4", events).read_bytes()
+    at, (end,) = 18 + struct.unpack_from("<I", data, 14)[0], struct.unpack_from("<q", data, 46)
+    walked = []
+    while at < end:
+        (head,) = struct.unpack_from("<q", data, at)
+        stop = at + 8 + (head >> 32)
+        times = read_events(unpack_lz4(data[at + 8 : stop]))["t"].tolist()
+        walked.append((at + 8, head, len(times), times[0], times[-1]))
+        at = stop
+    listed = Table.root(unpack_lz4(data[end:]), b"FTAB").columns(0, 5 * ["<i8"])
+    assert [row for part in listed for row in zip(*part, strict=True)] == walked
+    assert (at, sum(row[2] for row in walked)) == (end, len(events))
 
 
 PACKINGS = {
