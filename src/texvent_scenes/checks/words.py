@@ -207,6 +207,8 @@ def _is_stack(staged: StagedClip, claim: Claim) -> bool:
     noun = objects[claim.subject or 0].noun
     boxes = [one.corners(0.0) for one in staged.scene.actors
              if objects[one.object_index].noun == noun]  # fmt: skip
+    if not boxes:
+        return False
     low, high = (np.array([getattr(one, way)(axis=0) for one in boxes]) for way in ("min", "max"))
     room = _LOOSE * (high - low)[:, 2]
     rests = [bool(((np.abs(low[n, 2] - high[:, 2]) <= room) & (low[n, :2] < high[:, :2]).all(axis=1)
