@@ -191,7 +191,7 @@ def _lead_companions(description: SceneDescription, nouns: Mapping[str, Noun]) -
 def _set_on_routes(
     description: SceneDescription, nouns: Mapping[str, Noun]
 ) -> SceneDescription:  # fmt: skip
-    """What a file sends on a route without a motion goes; who follows does so in the same legs."""
+    """Objects that a file sends on a route without a motion go; followers do in the same legs."""
     objects = description.objects
     for one in (each for each in description.relations if each.kind in _ROUTES):
         thing, to = objects[one.subject], objects[one.targets[0]]

@@ -14,7 +14,7 @@ OTHER_MEANINGS = {
     *("glass", "leaf", "marble", "orange"),  # materials and colours
     *("checkerboard", "lamp", "mountain"),  # kinds of pictures, light and backdrops
     *("table", "clock"),  # a trait, the clock of a rig
-    *("shirt", "hat", "shorts", "trousers"),  # parts of every outfit
+    *("shirt", "hat", "shorts", "trousers", "dress"),  # parts of every outfit
     "square",  # a waveform
     *("person", "hand"),  # whose bodies are code
 }

@@ -64,7 +64,7 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
     _hang_up(draft)
     _stand_level(draft)
     _tell_riders(draft)
-    for token in (one for one in draft.tokens if one.text == "stars" and "star" in one.nouns):
+    for token in (one for one in draft.tokens if one.text == "stars" and one.nouns):
         if draft.parts["light"].get("kind") == "night" and draft.shows(token):
             draft.mark(token, "star shapes")  # which are near and large
     find_sources(draft)

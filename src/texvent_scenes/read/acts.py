@@ -160,7 +160,7 @@ def _choose_act(
         return act  # "a broom sweeping": it does not go
     act = next((one for one in acts if draft.fits(one, subjects, objects, has_object)), None)
     act = act or _act_as_person(draft, acts, subjects, objects, has_object)
-    if act and act.kind == "rise" and all(draft.noun(n).habitat == "fixed" for n in subjects):
+    if act and act.kind == "rise" and draft.names(subjects) <= nouns_with("towering"):
         act = replace(act, kind="stand")  # "mountains rise in the distance"
     is_sent = act is None and not has_object and _are_sent(draft, verb, subjects)
     return VerbSense(kind="throw") if is_sent else act

@@ -199,7 +199,7 @@ def _has_other_tool(thing: Mapping[str, Any], noun: str) -> bool:
         "used like a tool"
     ) and not can_be_worn(noun)
     has_tool = any(prop.anchor == "right hand" for prop in props)
-    return is_tool and has_tool and not any(noun in prop.nouns for prop in props)
+    return is_tool and has_tool and not any(noun in (prop.name, *prop.nouns) for prop in props)
 
 
 def _has_bench(thing: Mapping[str, Any]) -> bool:

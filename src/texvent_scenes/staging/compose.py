@@ -59,7 +59,7 @@ _NO_MEDIA = np.zeros(0, MEDIUM_RECORD)
 _THREAD, _THREAD_M = Material((0.15, 0.14, 0.13)), 20.0
 """Thread on which hangs what is in the air until it falls; its length, m."""
 _GONE = np.array([[1e-4, 0.0, 0.0, 0.0], [0.0, 1e-4, 0.0, 0.0], [0.0, 0.0, 1e-4, -50.0]])
-"""Where a thread is then: far below the ground, and a point."""
+"""Place of a thread that is gone, far below the ground, where it is a point."""
 _OFF_THE_BED = 0.5
 """Height of swimmers above the bed of the sea, as a multiple of their own."""
 _SUNK, _WADING, _AWASH, _DRAUGHT = -0.18, -0.55, -0.4, -0.3

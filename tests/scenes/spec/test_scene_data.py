@@ -119,7 +119,9 @@ def drawn_scenes(draw: st.DrawFn) -> Scene:
     target = draw(st.sampled_from([None, *ids]))
     effects = tuple(dataclasses.replace(one, source=target) for one in scene.effects)
     camera = dataclasses.replace(scene.camera, target=target)
-    return dataclasses.replace(scene, objects=objects, effects=effects, camera=camera)
+    rain = scene.place.weather == "rain"  # which wets the ground
+    place = dataclasses.replace(scene.place, is_wet=None if rain else scene.place.is_wet)
+    return dataclasses.replace(scene, objects=objects, effects=effects, camera=camera, place=place)
 
 
 @given(scene=drawn_scenes())

@@ -32,7 +32,7 @@ from texvent_scenes.models.people.prop_motions import PropMotion, read_motion
 from texvent_scenes.models.protocol import ModelPart, choose, paint
 from texvent_scenes.models.shapes import ball
 from texvent_scenes.models.surfaces import FIXED_HUES, PAINT, Painted
-from texvent_scenes.models.tables import frozen, read_table, trait_value
+from texvent_scenes.models.tables import frozen, nouns_with, read_table, trait_value
 from texvent_scenes.rendered_scene import Colour
 
 
@@ -99,10 +99,6 @@ def can_be_worn(noun: str) -> bool:
     return noun in CLOTHES or trait_value("worn", noun) is not None
 
 
-_TOPS = frozenset({"shirt", "sweater", "hoodie", "jacket"})
-"""Clothes of the upper body alone."""
-
-
 def put_on(kind: PersonKind, worn: Iterable[Worn]) -> PersonKind:
     """A kind of person in what it wears."""
     worn = tuple(worn)
@@ -113,7 +109,7 @@ def put_on(kind: PersonKind, worn: Iterable[Worn]) -> PersonKind:
         own = own and shade(own, _DARKER)  # no bare skin
         colour = said or own or frozen(row.get("usual"))
         changed = {key: frozen(value) for key, value in row.items() if key in _FIELDS}
-        if noun in _TOPS and kind.dress == "skirt" and not is_dressed:
+        if noun in nouns_with("top") and kind.dress == "skirt" and not is_dressed:
             changed.setdefault("dress", "trousers")  # a dress of that colour is no sweater
         garments = (*kind.garments, *changed.pop("garments", ()))
         for field, part in (("fabric", "shirts"), ("leg_fabric", "trousers")):

@@ -123,6 +123,7 @@ def go_inside(draft: SceneDraft, group: Group, relation: str, owners: Sequence[i
     head, rooms = group.head, word_table("interiors")
     noun = group.noun.noun if group.noun is not None else ""
     is_open = relation == "in" and noun in rooms and "name" not in draft.parts["place"]
+    is_open &= head is not None and not head.has("place")  # "in a museum"
     if head is None or not (is_open and owners) or draft.find([noun]):
         return False
     if not all(map(draft.walks, owners)):

@@ -202,7 +202,7 @@ def _see_beside(token: Token, tokens: Sequence[Token]) -> Token:
 
 def _speaks_for(row: Mapping[str, Any], others: Collection[str], before: str) -> bool:
     """Whether the other words of a prompt, and those right before, speak for a row's noun."""
-    led = [one for each in row.get("led", [""]) for one in expand(each)]
+    led = [one for each in row.get("after", [""]) for one in expand(each)]
     is_beside = bool({*others} & {*row.get("nouns", others)})
     is_beside &= {*others}.isdisjoint(row.get("without", ()))
     return is_beside and any(before.endswith(f"{one} ") for one in led)

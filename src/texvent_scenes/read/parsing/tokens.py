@@ -33,7 +33,7 @@ from texvent_scenes.read.parsing.quantities import (
 from texvent_scenes.words import find_literals
 
 _OF_PARTICLES = ("plain", "lamp", "machine")
-"""Who does what is no verb with a particle before a noun: "comes down the road"."""
+"""Subjects of what is no verb with a particle before a noun: "comes down the road"."""
 _NEAR = 4
 """Words after a light verb among which what is done is named."""
 MOST_WORDS = 1000

@@ -69,7 +69,7 @@ _LIFT_SHARE, _LANDING_SHARE = 0.3, 0.65
 _OF_CAMERA = ("towards", "away")
 """Directions to which something turns that say where it heads then, and not to which side."""
 _AT_REST = frozenset({"sit", "lie"})
-"""What bodies with legs do at rest, beside acts of their own."""
+"""Motions of bodies with legs at rest, beside acts of their own."""
 _REACHED = {"sit down": "sit", "stand up": "stand"}
 """Getting up and down after something else: the posture that the body goes over to."""
 

@@ -34,7 +34,7 @@ class Axle(NamedTuple):
     height_m: float
     """Above its origin."""
     radius_m: float
-    """Of the round part about it; of what has none, half its height."""
+    """Radius of the round part about it; of what has none, half its height."""
     reach_m: float
     """Most distance of any point from it."""
 
