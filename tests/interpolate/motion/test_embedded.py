@@ -15,8 +15,8 @@ from texvent_scenes.raycast.incremental import IncrementalRenderer
 SIZE = SensorSize(80, 60)
 
 
-def video(prompt: str, duration_s=0.2, **options):
-    config = ProceduralConfig(duration=duration_s, **options)
+def video(prompt: str, **options):
+    config = ProceduralConfig(duration=0.2, **options)
     return ProceduralGenerator(config, seed=1, size=SIZE).generate(prompt)
 
 
@@ -64,7 +64,7 @@ def test_events_agree_with_those_of_every_instant_rendered(monkeypatch, prompt, 
         return draw(self, time_s, pixels, codes, light)
 
     monkeypatch.setattr(IncrementalRenderer, "_luma", count)
-    streams, scene = {}, video(prompt, duration_s=0.125)
+    streams, scene = {}, video(prompt)
     for interpolate in ("motion", "exact"):
         options = {"interpolate": interpolate, "fixed_count": 11, "noise": "none"}
         run = Simulation(video=scene, settings=resolve("generate", options))

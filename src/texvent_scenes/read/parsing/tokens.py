@@ -269,11 +269,19 @@ def _read_phrase(
             found = _without_chance(found, words, end, before)
             found = () if _is_shade(words, end, lexicon) else found
             is_thing = len(phrase) == 2 < end + 1 - at  # "approaching the camera", no camera
-            found = tuple(one for one in found if not (is_thing and one.kind == "noun"))
+            found = tuple(one for one in found if one.kind != "noun" or not (
+                is_thing or _is_counted(senses, one, before)))  # fmt: skip
         if found:
             length, senses = end + 1 - at, found
     figure = _read_figure(words, at, lexicon) if length == 1 else None
     return (length, senses) if figure is None else _as_senses(figure)
+
+
+def _is_counted(first: Senses, whole: Sense, before: Sequence[Token]) -> bool:
+    """Whether a number says how many there are on one thing: "three candles on a cake"."""
+    is_many = any(one.kind == "noun" and one.value.is_plural for one in first)
+    field, _ = before[-1].value("field") if before else ("", None)
+    return is_many and field == "count" and not whole.value.is_plural
 
 
 def _read_figure(words: Sequence[str], at: int, lexicon: Lexicon) -> Found | None:
