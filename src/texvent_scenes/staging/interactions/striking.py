@@ -24,8 +24,7 @@ from texvent_scenes.staging.interactions.holding import (
     is_person,
     moving,
 )
-from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, Key, Vector, ahead, flight_s
-from texvent_scenes.staging.tracks.phase_keys import arc
+from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, Key, Vector, ahead, arc, flight_s
 from texvent_scenes.staging.tracks.phases import speeds_of
 from texvent_scenes.staging.tracks.track import (
     Attachment,

@@ -11,8 +11,7 @@ from texvent_scenes.models.anchors import Support, find_support
 from texvent_scenes.models.protocol import Model
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.staging.placement.object_groups import ObjectGroup
-from texvent_scenes.staging.tracks.keys import Key
-from texvent_scenes.staging.tracks.phase_keys import arc
+from texvent_scenes.staging.tracks.keys import Key, arc
 from texvent_scenes.staging.tracks.phases import activity_of
 from texvent_scenes.staging.tracks.track import Track, centred
 

@@ -18,6 +18,8 @@ import numpy as np
 
 Vector = tuple[float, float, float]
 GRAVITY_M_S2 = 9.81
+RAMP_S = 0.3
+"""Time to reach a speed, s."""
 HOP_PAUSE_S = 0.12
 """Time on the ground between hops."""
 _TURNING = 0.4
@@ -192,3 +194,22 @@ def bounce_height(drop_m: float, up_m_s: float, restitution: float, elapsed_s: f
     into = elapsed - total * (1.0 - restitution**number)
     speed = impact * restitution ** (number + 1)
     return max(speed * into - 0.5 * GRAVITY_M_S2 * into**2, 0.0)
+
+
+def arc(span: float, speed: float, angle: float, least_m: float) -> list[Key]:
+    """Turn by an angle, the rate rising and falling smoothly.
+
+    Args:
+        span: how long it takes, s.
+        speed: along the heading, m/s.
+        angle: positive = to the left, radians.
+        least_m: least radius, m; a tighter turn is turned less far.
+    """
+    ramp = min(RAMP_S, 0.3 * span)
+    turn = angle / (span - ramp)
+    if least_m > 0.0 and speed != 0.0:
+        turn = math.copysign(min(abs(turn), abs(speed) / least_m), turn)
+    return [
+        Key(span - ramp, speed, turn, ramp_s=ramp),
+        Key(ramp, speed, 0.0, ramp_s=ramp),
+    ]

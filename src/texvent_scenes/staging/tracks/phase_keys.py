@@ -19,7 +19,7 @@ from texvent_scenes.models.shapes import bounds
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.spec.scene import Motion
 from texvent_scenes.staging.tracks.corners import centre_change, corner
-from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, HOP_PAUSE_S, Key, flight_s
+from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, HOP_PAUSE_S, RAMP_S, Key, arc, flight_s
 from texvent_scenes.staging.tracks.phases import (
     PATH_KINDS,
     STEERED,
@@ -50,8 +50,8 @@ _TIPPING = 0.9
 """Height over length from which on a body that stands on the ground can fall over."""
 BOUNCY, DULL = 0.82, 0.3
 """Shares of its upward speed that a bounce keeps: of what bounces, and of what falls."""
-_RAMP_S, _SKID, _SUNK = 0.3, 1.1, 0.95
-"""Time to reach a speed, s; angle by which the rear of what skids comes round, rad; share of its
+_SKID, _SUNK = 1.1, 0.95
+"""Angle by which the rear of what skids comes round, rad; share of its
 height by which what floats goes down as it sinks."""
 _PLUNGED, _LEAPT, _STOOD, _GONE = 1.0, 0.15, 0.62, 1.4
 """Height above the water of who leaps into it, in its own; rise of the leap, as a share of that;
@@ -151,25 +151,6 @@ def to_and_fro(motion: Motion, speed_m_s: float, span_s: float, model: Model) ->
     speed = motion.speed_m_s if motion.speed_m_s is not None else 2.0 * math.pi * rate * reach
     along, up = (0.0, speed) if is_vertical else (speed, 0.0)
     return Key(span_s, along, climb_m_s=up, activity=activity_of(motion.kind), swing_hz=rate)
-
-
-def arc(span: float, speed: float, angle: float, least_m: float) -> list[Key]:
-    """Turn by an angle, the rate rising and falling smoothly.
-
-    Args:
-        span: how long it takes, s.
-        speed: along the heading, m/s.
-        angle: positive = to the left, radians.
-        least_m: least radius, m; a tighter turn is turned less far.
-    """
-    ramp = min(_RAMP_S, 0.3 * span)
-    turn = angle / (span - ramp)
-    if least_m > 0.0 and speed != 0.0:
-        turn = math.copysign(min(abs(turn), abs(speed) / least_m), turn)
-    return [
-        Key(span - ramp, speed, turn, ramp_s=ramp),
-        Key(ramp, speed, 0.0, ramp_s=ramp),
-    ]
 
 
 class _KeyBuilder:
@@ -313,12 +294,12 @@ class _KeyBuilder:
                 for one in arc(share * span, speed, turn, least_radius(self._model, self._noun)):
                     self._append(replace(one, activity=activity))
             else:
-                ramp = min(_RAMP_S, 0.35 * share * span)
+                ramp = min(RAMP_S, 0.35 * share * span)
                 self._append(Key(share * span, speed, 0.0, climb, ramp, activity))
         if end is not None:
             # What brakes is seen going, and at rest or slow for a while.
             lead, ramp = (0.3, 0.4) if abs(end) < abs(speed) else (0.12, 0.88)
-            first_ramp = min(_RAMP_S, 0.35 * lead * last_s)
+            first_ramp = min(RAMP_S, 0.35 * lead * last_s)
             self._append(Key(lead * last_s, speed, 0.0, climb, first_ramp, activity))
             rest_s = (1.0 - lead) * last_s
             self._append(Key(rest_s, end, 0.0, climb, ramp * last_s, activity))
@@ -375,7 +356,7 @@ class _KeyBuilder:
         if abs(turn) < 0.05:
             return [(1.0, 0.0)]
         radius, speed = least_radius(self._model, self._noun), abs(self._speed(motion))
-        needed = (abs(turn) * radius / max(speed, 0.01) + _RAMP_S) / span
+        needed = (abs(turn) * radius / max(speed, 0.01) + RAMP_S) / span
         share = min(max(_HEADING_SHARE, needed), _MOST_TURNING)
         return [(share, turn), (1.0 - share, 0.0)]
 
@@ -438,7 +419,7 @@ class _KeyBuilder:
             speed = motion.speed_m_s
             self._start(speed)
         activity = "jump" if motion.kind == "jump" and not speed else "move"
-        ramp = min(_RAMP_S, 0.35 * span)
+        ramp = min(RAMP_S, 0.35 * span)
         self._append(Key(span, speed, 0.0, 0.0, ramp, activity, height))
 
     def _plunge(self, span: float) -> None:
