@@ -105,7 +105,7 @@ def find_misplaced(
 def _list_wrong_element(
     number: int, one: Actor, place: PlaceModel, bodies: _Bodies
 ) -> Iterator[Violation]:
-    """Faults of what floats on land, and of what stands on water."""
+    """Faults of boats on land, and of land bodies that stand on water."""
     if is_stranded(one, place) and bodies.is_alone(number) and not bodies.is_bound(number):
         yield Violation("zone", "", "on land")
     is_dry = place.ground is Ground.SEA and one.noun.habitat == "ground"

@@ -150,7 +150,7 @@ def _choose_act(
     done = {draft.things[one].get("deed", "") for one in subjects} - {""}
     words = {draft.things[one].get("word", "") for one in subjects}
     if verb.text in _list_performing() and not done and words & _musicians():
-        return None  # of an instrument that nobody plays here: no game
+        return None  # of an instrument without its player: no game
     done |= _list_played(draft, subjects) if verb.text in _list_performing() else set()
     if verb.text in _list_performing():
         acts[:0] = [VerbSense("person", one) for one in done]

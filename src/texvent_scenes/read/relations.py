@@ -118,7 +118,7 @@ def _put_by_hand(
 ) -> str:
     """Fate of where people put things: "puts a cup on a table"; "" = they put nothing there.
 
-    What no bench stands for has the thing all along, and nobody puts it there.
+    Without a bench of its own the act has the thing all along, and does not put it there.
     """
     noun, verb = draft.things[targets[0]]["noun"], draft.last.verb
     acts = [one for n in subjects for one in draft.things[n]["relations"]
@@ -175,14 +175,14 @@ def _bear(draft: SceneDraft, index: int, targets: Indices) -> str:
 
 
 def _is_refused(draft: SceneDraft, kind: str, index: int, targets: Indices) -> bool:
-    """Whether nobody has or is on a thing so: "waters flowers with a hose", from a can."""
+    """Whether an act has another tool, or its place takes no body: "waters flowers with a hose"."""
     noun = draft.things[targets[0]]["noun"]
     if kind == "with":
         return _has_other_tool(draft.things[index], noun)
-    return kind == "on" and _bears_nobody(draft, index, noun, targets)
+    return kind == "on" and _takes_no_body(draft, index, noun, targets)
 
 
-def _bears_nobody(draft: SceneDraft, index: int, noun: str, targets: Indices) -> bool:
+def _takes_no_body(draft: SceneDraft, index: int, noun: str, targets: Indices) -> bool:
     """Whether nothing is put on a thing: slopes of a peak; who works at it stands by it then."""
     thing = draft.things[index]
     is_worked_at = noun in _WORKED_AT and _works(thing) and not _use(thing, noun)

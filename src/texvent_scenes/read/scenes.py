@@ -160,7 +160,7 @@ def _await(draft: SceneDraft, clause: Clause, subjects: list[int]) -> None:
 def _look_closely(
     draft: SceneDraft, after: Sequence[Phrase | Token], subjects: Sequence[int]
 ) -> None:
-    """Have a close-up that is told after the scene be of what it names: "close-up of the cup"."""
+    """Aim a close-up that follows the scene at the object it names: "close-up of the cup"."""
     words = [one.text for one in after if isinstance(one, Token)]
     for index in subjects[:1] if any(one.startswith("close up") for one in words) else ():
         draft.parts["camera"]["target"] = index

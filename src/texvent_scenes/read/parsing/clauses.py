@@ -65,7 +65,7 @@ def read_clauses(tokens: Sequence[Token]) -> tuple[Clause, ...]:
 
 @cache
 def _list_leading() -> frozenset[str]:
-    """Forms of verbs before somebody and what that one does."""
+    """Forms of verbs before an object and its act: "watches a dog jump"."""
     verbs = word_set("things", "leading")
     return frozenset(form for verb in verbs for form, _ in list_forms(verb))
 

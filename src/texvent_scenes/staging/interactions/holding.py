@@ -36,7 +36,7 @@ _HANDS = ("left hand", "right hand")
 _BACK_M = 0.12
 """From the middle of the body of an adult to the back, m."""
 _ARMS = 1.06
-"""Height of arms that have somebody across them, in that of the holder, who is adult at 1, m."""
+"""Height of the arms of an adult that carry a person across them, m."""
 _STRETCH = 0.60
 """Distance from shoulder to palm of an arm that is nearly straight, m."""
 

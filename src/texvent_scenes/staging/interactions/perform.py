@@ -396,7 +396,7 @@ def _bear_down(cast: dict[int, Actor], relations: Sequence[IndexedRelation]) -> 
 def _carry_along(
     cast: dict[int, Actor], placed: Mapping[int, Actor], relations: Sequence[IndexedRelation]
 ) -> None:
-    """Let what stands on a thing, or lies in it, go with it where an act moves that."""
+    """Move bodies on or in a thing along with it where an act moves that."""
     starts = {n: one.track.at(0.0).to_world() for n, one in placed.items()}
     for each in (one for one in relations if one.kind in ("on", "in")):
         below = [n for n, one in cast.items() if one.object_index in each.targets]

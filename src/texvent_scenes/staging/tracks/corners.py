@@ -57,7 +57,7 @@ def corner(before: Key, last: Key, turn_rad: float, span_s: float, least_m: floa
 
 
 def _reverse(before: Key, last: Key, turn_rad: float, span_s: float) -> list[Key]:
-    """Keys of who turns round on the spot and goes back: at rest about the time that is told."""
+    """Keys of a turn on the spot before the way back, at rest about the stated time."""
     room_s = _SHARE * min(before.duration_s - before.ramp_s, span_s)
     whole_s = min(_REVERSAL_S, room_s)
     if whole_s < _LEAST_S:
