@@ -119,7 +119,7 @@ def _make_recordings(folder: Path, rng: np.random.Generator) -> None:
         for name in ("left", "right"):
             for column in "xytp":
                 file[f"{name}/{column}"] = getattr(events, column)
-    words = ["generate", "a red ball bounces", "--sensor", "16x12", "--duration", "0.2", "-q"]
+    words = ["generate", "a football bounces", "--sensor", "16x12", "--duration", "0.2", "-q"]
     words += ["--samples", "1"]
     flat = ["--previews", "none", "--interpolate", "none"]
     assert main([*words, *flat, "-o", str(folder / "scene.h5")]) == 0
