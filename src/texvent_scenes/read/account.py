@@ -4,23 +4,21 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 from texvent.prompt_report import Substitution
-from texvent_scenes.colours import rgb_of
 from texvent_scenes.description import Claim, Dependence
 from texvent_scenes.models.activities import PERSON_NOUNS, SAT
 from texvent_scenes.models.protocol import Noun
-from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
+from texvent_scenes.models.tables import trait_values
+from texvent_scenes.read.draft.completion import complete
 from texvent_scenes.read.draft.copies import OPPOSITE, halve, take_turns
 from texvent_scenes.read.draft.scene_draft import SceneDraft
-from texvent_scenes.read.draft.setting import leave_sky
-from texvent_scenes.read.draft.sources import find_sources
-from texvent_scenes.read.parsing.lexicon import deeds, word_set, word_table
+from texvent_scenes.read.parsing.lexicon import word_set
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
 from texvent_scenes.spec.data import scene_from_data
-from texvent_scenes.spec.scene import MAX_BODIES, Scene, number_nouns
+from texvent_scenes.spec.scene import Scene, number_nouns
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,25 +54,7 @@ def _reach_speed(motion: dict[str, Any], noun: Noun) -> None:
 
 def finish(draft: SceneDraft, prompt: str) -> Reading:
     """The scene, and its words; one that is lost at one place of the prompt is not shown."""
-    _choose_gender(draft)
-    _lead_view(draft)
-    _ride_on(draft)
-    _do_deeds(draft)
-    _find_opponents(draft)
-    _hang_up(draft)
-    _stand_level(draft)
-    _tell_riders(draft)
-    for token in (one for one in draft.tokens if one.text == "stars" and one.nouns):
-        if draft.parts["light"].get("kind") == "night" and draft.shows(token):
-            draft.mark(token, "star shapes")  # which are near and large
-    find_sources(draft)
-    leave_sky(draft)
-    _turn_marks(draft)
-    _skate_on_ice(draft)
-    _bring_home(draft)
-    _limit_counts(draft)
-    _look_up(draft)
-    _bring_weather(draft)
+    complete(draft)
     fates: dict[str, str] = {}
     for token, after in zip(draft.tokens, (*draft.tokens[1:], NO_TOKEN), strict=False):
         is_open = token.is_sign or token.is_grammar
@@ -99,26 +79,6 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
         claims=tuple(_list_claims(draft)),
         dependences=tuple(_list_dependences(draft, lost)),
     )
-
-
-def _look_up(draft: SceneDraft) -> None:
-    """Show those whom one sees against the sky in the open sky, or from below."""
-    if not draft.before_sky:
-        return
-    is_free = all(draft.noun(n).habitat == "air" for n in range(len(draft.things)))
-    if is_free and "name" not in draft.parts["place"]:
-        draft.parts["place"]["name"] = "sky"
-    elif not draft.moves:
-        draft.parts["camera"].setdefault("view", "low")
-
-
-def _bring_weather(draft: SceneDraft) -> None:
-    """Add the weather that a word brings: rain of a thunderstorm that is not dry."""
-    for weather, storms in word_table("storms").items():
-        for token in draft.tokens:
-            is_dry = draft.beside(token, -1).text == "dry"
-            if token.text in storms and draft.shows(token) and not is_dry:
-                draft.parts["place"].setdefault("weather", weather)
 
 
 _TIES = ("verb", "pose", "adverb", "relation", "shot", "other")
@@ -168,32 +128,6 @@ def _split_clauses(
         yield clause
 
 
-_SEEN_SIZE = 3.0
-"""Size of a small ball that is seen from where both players are, as a multiple of the usual one."""
-
-
-def _find_opponents(draft: SceneDraft) -> None:
-    """Give who plays a rally an opponent, a ball and what they play over."""
-    table = word_table("rallies")
-    for index, thing in enumerate(tuple(draft.things)):
-        kind = next((one["kind"] for one in thing["motions"] if one["kind"] in table), "")
-        if not kind or any(one["kind"] == "rally" for one in thing["relations"]):
-            continue
-        players, targets = [index], []
-        if thing["count"] == 1:
-            players.append(draft.add("person", motions=[{"kind": kind}]))
-        ball, _ = table[kind]
-        for noun in table[kind]:
-            known = [n for n, one in enumerate(draft.things) if noun.endswith(one["noun"])]
-            for one in known[:1]:
-                draft.things[one] |= {"noun": noun, "motions": []}
-            targets.append(known[0] if known else draft.add(noun))
-            if noun == ball:  # else it is a speck between two people
-                draft.things[targets[-1]].setdefault("size", _SEEN_SIZE)
-        for one in players:
-            draft.relate(one, "rally", targets)
-
-
 def _list_claims(draft: SceneDraft) -> Iterator[Claim]:
     """Claims of words that are not lost at another place, where nothing is claimed of them."""
     lost = [one for one in draft.tokens if not draft.shows(one) and not one.is_grammar]
@@ -209,156 +143,6 @@ def _list_claims(draft: SceneDraft) -> Iterator[Claim]:
 def _has_seat(draft: SceneDraft, claim: Claim) -> bool:
     """Whether the act of who sits somewhere comes with the seat, and with what it is done at."""
     return claim.subject is not None and bool(draft.does([claim.subject]) & SAT)
-
-
-def _choose_gender(draft: SceneDraft) -> None:
-    """Draw the only person as the one that a pronoun means: "a teacher chops her carrots"."""
-    persons = [one for one in draft.things if one["noun"] in PERSON_NOUNS]
-    words = {one.text for one in draft.tokens if [each["noun"] for each in persons] == ["person"]}
-    for noun, pronouns in word_table("people").items():
-        if words & {*pronouns} and persons[0]["noun"] == "person":
-            persons[0]["noun"] = noun
-            draft.fates.update({at: noun for at, one in draft.fates.items() if one == "person"})
-
-
-_LARGE_M = 0.4
-"""Length of an animal from which on no round rock bears it."""
-
-
-def _stand_level(draft: SceneDraft) -> None:
-    """Have large animals on flat rocks: on a round one, feet would hang in the air."""
-    flat = word_table("stood_on")
-    for index, one in enumerate(draft.things):
-        noun = draft.noun(index)
-        for target in draft.targets([index], ["on"]) if noun.motion == "walk" else ():
-            thing = draft.things[target]
-            if thing["noun"] in flat and one["noun"] not in PERSON_NOUNS:
-                length_m = noun.build(colour=None, scale=1.0, seed=0).length
-                thing["noun"] = flat[thing["noun"]] if length_m > _LARGE_M else thing["noun"]
-
-
-def _tell_riders(draft: SceneDraft) -> None:
-    """Report persons of whom a vehicle brings its own: no girl is drawn on a bicycle."""
-    for index, one in enumerate(draft.things):
-        ridden = draft.names(draft.targets([index], ["ride"]))
-        if one["noun"] not in PERSON_NOUNS - word_set("things", "brought"):
-            continue
-        if any(trait_value("ridden", noun) == "built-in" for noun in ridden):
-            for token in (each for each in draft.tokens if one["noun"] in each.nouns):
-                draft.mark(token, "person")
-
-
-def _hang_up(draft: SceneDraft) -> None:
-    """Put on a wall of their own what hangs on one by its name: "a wall clock"."""
-    hung, walls = nouns_with("hangs on a wall"), nouns_with("only a background")
-    for token in draft.tokens:
-        wall, _, rest = token.text.partition(" ")
-        named = token.nouns & hung if rest else set()
-        bare = [one for one in draft.find(named) if not draft.things[one]["relations"]]
-        for index in bare[:1] if wall in walls else ():
-            draft.relate(index, "on", [draft.add(wall)])
-
-
-def _lead_view(draft: SceneDraft) -> None:
-    """Have vehicles go before a camera that drives where their word says so: "the car ahead"."""
-    ahead, near = word_set("things", "ahead"), word_set("things", "ahead_of_us")
-    for one in draft.things:
-        word = str(one.get("word", ""))
-        if any(word.endswith(f" {each}") for each in near) and not draft.moves:
-            draft.add_move({"kind": "travel", "direction": "forward", "means": "drive"})
-        is_led = any(word.endswith(f" {each}") for each in (*ahead, *near))
-        if is_led and any(each.get("means") == "drive" for each in draft.moves):
-            goes = not one["motions"] and "is_lost" not in one
-            one["motions"] += [{"kind": "drive"}] if goes else []
-            for motion in one["motions"]:
-                if motion["kind"] in ("drive", "move") and "direction" not in motion:
-                    motion["direction"] = "away"
-
-
-def _ride_on(draft: SceneDraft) -> None:
-    """Let riders go of whom nothing is said: "a scooter rider on a road"."""
-    for one in draft.things:
-        mount = one.pop("rides", None)
-        if mount is not None and not (one["motions"] or draft.things[mount]["motions"]):
-            one["motions"] = [{"kind": "sit"}]
-            draft.things[mount]["motions"] = [{"kind": "move"}]
-
-
-def _do_deeds(draft: SceneDraft) -> None:
-    """Let those do it who are named by what they do and do nothing else: "a violinist"."""
-    for index, one in enumerate(draft.things):
-        deed = one.pop("deed", None)
-        one.pop("word", None)
-        acts = draft.acts([index]) & word_set("things", "doing")
-        if deed and not (one["motions"] or acts or "is_lost" in one):
-            one["motions"].append({"kind": deed})
-        for token in draft.tokens if deed in draft.does([index]) else ():
-            if deeds().get(token.text) == deed:
-                draft.fates[token.at] = "shown"
-                draft.claim(token, "activity", deed, [index])
-
-
-def _bring_home(draft: SceneDraft) -> None:
-    """Set the place that a compound names where no other is said: "a street musician"."""
-    for before, head, noun in draft.homes:
-        name = before.all("place")[0].value
-        is_species = name in word_set("things", "species_of") and noun not in PERSON_NOUNS
-        is_species &= draft.nouns[noun].motion in ("walk", "fly", "swim")
-        if draft.parts["place"].setdefault("name", name) == name and not is_species:
-            draft.show(before)
-        else:
-            draft.merge_compound(before, head, noun)
-
-
-def _skate_on_ice(draft: SceneDraft) -> None:
-    """Have those skate on blades who are on ice, or named so."""
-    is_ice = draft.parts["place"].get("name") in ("ice rink", "snow")
-    for index, thing in enumerate(draft.things):
-        skating = [one for one in thing["motions"] if one["kind"] == "skate"]
-        for one in skating if is_ice or thing["noun"] in nouns_with("skates on ice") else ():
-            one["kind"] = "skate on blades"
-            draft.claims = {
-                at: [replace(each, value="skate on blades")
-                     if (each.subject, each.value) == (index, "skate") else each for each in claims]
-                for at, claims in draft.claims.items()
-            }  # fmt: skip
-
-
-_LIGHT = 0.3
-"""Greatest channel of a colour, linear, from which on a mark on it is black."""
-
-
-def _turn_marks(draft: SceneDraft) -> None:
-    """Have a disc turn with a mark on it: "a dot rotates on a disc"."""
-    discs = word_table("turned_with_marks")
-    for mark in (one for one in draft.things if one["noun"] in discs):
-        on = [each["to"][0] for each in mark["relations"] if each["kind"] == "on"]
-        for index in (n for n in on if draft.things[n]["noun"] in discs):
-            disc = draft.things[index]
-            draft.parts["camera"].setdefault("target", index)
-            if "colour" not in mark:
-                light = rgb_of(disc.get("colour")) or (0.0,)
-                mark["colour"] = "black" if max(light) > _LIGHT else "white"
-            turns = [each for each in mark["motions"] if each["kind"] in ("spin", "orbit")]
-            is_turning = draft.nouns[disc["noun"]].is_working
-            disc["noun"] = discs[disc["noun"]]  # no spokes beside the mark
-            disc["motions"] = [{**each, "kind": "spin"} for each in turns or disc["motions"]]
-            disc["motions"] = disc["motions"] or [{"kind": "spin"}] * is_turning
-            mark["motions"] = [each for each in mark["motions"] if each not in turns]
-
-
-def _limit_counts(draft: SceneDraft) -> None:
-    """Leave out copies of objects that have most until a scene holds all, and say how many."""
-    said = [int(one["count"]) for one in draft.things]
-    while sum(one["count"] for one in draft.things) > MAX_BODIES:
-        max(draft.things, key=lambda one: int(one["count"]))["count"] -= 1
-    fewer = {n: one["count"] for n, one in zip(said, draft.things, strict=True) if one["count"] < n}
-    for token in filter(draft.shows, draft.tokens):
-        number = token.text.replace(",", "")
-        for each in (one.value for one in token.all("field") if one.value[0] == "count"):
-            count = fewer.get(each[1], each[1])
-            if each[1] in fewer or (number.isdecimal() and int(number) > count):
-                draft.fates[token.at] = str(count)  # "30" balls are 24
 
 
 def _run_belts(draft: SceneDraft) -> None:
