@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-import numpy as np
-
 from texvent_scenes.models.activities import ON_GROUND, PERSON_NOUNS, TRAVELLING
 from texvent_scenes.models.anchors import Support
 from texvent_scenes.models.tables import nouns_with, trait_value
@@ -149,8 +147,8 @@ def carry_along(group: ObjectGroup, target: ObjectGroup, support: Support) -> No
         return
     group.carrier, duration_s = None, target.plan.duration_s
     speed = usual_m_s * motion.pace * size_of(target.models[0])
-    taken = np.ptp([math.hypot(x, y) for x, y, _ in group.offsets]) + group.models[0].length
-    room = max(support.high[0] - support.low[0] - float(taken), 0.0)
+    taken = group.models[0].length if group.row_m is None else group.row_m
+    room = max(support.high[0] - support.low[0] - taken, 0.0)
     yaw = target.plan.yaw + (math.pi if motion.direction == "clockwise" else 0.0)
     going_s = min(room / speed, duration_s)
     keys = (Key(0.0, speed), Key(going_s, speed), Key(max(duration_s - going_s, 0.01), ramp_s=0.05))
