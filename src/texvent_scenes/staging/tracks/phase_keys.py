@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import zip_longest
 
 from texvent_scenes.description import SPIN_RATE_HZ, STANDING
 from texvent_scenes.models.activities import (
     ACTIVITIES,
+    ANIMAL_ACTIVITIES,
     DONE_SEATED,
     ON_GROUND,
     PERSON_NOUNS,
@@ -107,7 +109,7 @@ def build_path(
         start_m=start_m,
     )  # fmt: skip
     builder.hurry(phases)
-    for phase in phases:
+    for phase in _switched(phases, motions[0]):
         builder.add(phase)
     first = replace(builder.keys[0], activity=builder.keys[1].activity)
     path = Track(
@@ -121,6 +123,22 @@ def build_path(
         edge_m=builder.edge_m,
     )
     return centred(path, duration_s)
+
+
+def _switched(phases: Sequence[Phase], first: Motion) -> Iterator[Phase]:
+    """The phases; what switches to another state at a stated time is in it from then on.
+
+    What rests before its `first` motion is in the state from which it switches.
+    """
+    for one, after in zip_longest(phases, phases[1:]):
+        now = ANIMAL_ACTIVITIES.get(one.motion.kind)
+        later = ANIMAL_ACTIVITIES.get(after.motion.kind) if after is not None else None
+        kind = one.motion.kind
+        if now is not None and now.to_state and one.motion.start_s is not None:
+            kind = now.to_state
+        elif one is phases[0] and one.motion is not first and later is not None:
+            kind = later.from_state or kind
+        yield replace(one, motion=replace(one.motion, kind=kind))
 
 
 def falls_sideways(noun: Noun) -> bool:
