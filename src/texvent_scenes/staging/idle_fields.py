@@ -58,6 +58,7 @@ TURNS = ("left", "right", "clockwise", "counter-clockwise", "towards", "away", "
 """
 _SHARES = (0.0, 0.07, 0.13, 0.21, 0.29, 0.41, 0.5, 0.6, 0.71, 0.83, 0.97)
 """Instants at which bodies are compared, as shares of the time up to the last start, and after."""
+_UPRIGHT = {"rise": "up", "sink": "down"}
 _USUAL_S = 2.0
 _MOST_KINDS = 12
 """Most kinds of motion that an error names."""
@@ -356,6 +357,9 @@ def _who_reads(body: _Body, one: SceneObject, number: int, name: str) -> str:
         return "speed_m_s takes its place; leave one of them out"
     if name == "direction" and one.heading_deg is not None and motion.kind != "turn":
         return "heading_deg takes its place; leave one of them out"
+    if name == "direction" and motion.kind in _UPRIGHT:
+        straight = f"{shown(motion.kind)} of a {one.noun} goes straight {_UPRIGHT[motion.kind]}"
+        return f"{straight}; leave it out, or give that direction a motion of its own"
     given = getattr(motion, name)
     if name == "start_s" and (landing_s := body.lands_at(one, number)) is not None:
         return (f"what falls bounces as soon as it is down, at {landing_s:.3f} s; leave it out, or "
@@ -395,6 +399,8 @@ def _list_read(body: _Body, one: SceneObject, number: int) -> Iterator[str]:
 def _is_usual(body: _Body, one: SceneObject, number: int, name: str) -> bool:
     """Whether a field without effect says what is so anyway."""
     motion = one.motions[number]
+    if name == "direction" and _UPRIGHT.get(motion.kind) == motion.direction:
+        return True
     if name == "direction" and one.heading_deg is not None and motion.direction in YAWS:
         turn = one.heading_deg - math.degrees(YAWS[motion.direction])
         return abs(math.remainder(turn, 360.0)) < 1e-9
