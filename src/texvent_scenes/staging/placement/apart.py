@@ -208,7 +208,7 @@ def list_distances(description: SceneDescription) -> Iterator[IndexedRelation]:
 
 
 def bearer_of(description: SceneDescription, index: int) -> tuple[str, tuple[int, ...]] | None:
-    """How an object rests on others, and on which."""
+    """Relation by which an object rests on others, and these."""
     return next(((one.kind, one.targets) for one in description.relations
                  if one.subject == index and one.kind in RESTING), None)  # fmt: skip
 
