@@ -10,6 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from texvent_scenes.default_places import AFLOAT_MOTIONS, AT_HAND, choose_place
+from texvent_scenes.default_work import is_work, list_work, work_of, works_by_turns
 from texvent_scenes.description import SPIN_RATE_HZ, STANDING, IndexedRelation, SceneDescription
 from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS, TRAVELLING
 from texvent_scenes.models.effects import LAMPS
@@ -254,6 +255,8 @@ def _strike_far(description: SceneDescription) -> SceneDescription:
 
 def decide_motions(motions: Sequence[Motion], noun: Noun) -> tuple[Motion, ...]:
     """Motions as they are staged, of one object by itself."""
+    if works_by_turns(motions, noun):
+        return list_work(motions, noun)
     later = [_at_rate(one, noun) for one in motions[1:]]
     if [one.kind for one in motions] == ["break"] and _falls_to_break(noun):
         return (Motion("fall", start_s=motions[0].start_s), replace(motions[0], start_s=None))
@@ -268,8 +271,8 @@ def _falls_to_break(noun: Noun) -> bool:
 
 def _decide_motion(motion: Motion | None, noun: Noun) -> tuple[Motion, ...]:
     """The usual motion for "move", and for what always moves."""
-    if noun.is_working and _is_work(motion, noun):
-        return (_work(motion, noun),)
+    if noun.is_working and is_work(motion, noun):
+        return (work_of(motion, noun),)
     if motion is None and noun.name in HAND_NOUNS:
         return (STANDING,)
     if motion is None:
@@ -302,37 +305,6 @@ def _at_rate(motion: Motion, noun: Noun) -> Motion:
     if not turns or motion.rate_hz is None:
         return motion
     return replace(motion, kind="spin", pace=motion.rate_hz / SPIN_RATE_HZ)
-
-
-def _is_work(motion: Motion | None, noun: Noun) -> bool:
-    """Whether a motion is that of the parts of a noun, which stays where it is."""
-    if motion is None or motion.kind in ("stand", "swing", "spin", "turn", "work", "sway"):
-        return True
-    is_flat = noun.name in nouns_with("flat pattern")
-    turns = trait_value("turns per second", noun.name) is not None
-    swings = motion.direction == "to and fro" and not (turns or noun.speed_m_s)
-    return motion.kind == "move" and (motion.direction is None or is_flat or swings)
-
-
-def _work(motion: Motion | None, noun: Noun) -> Motion:
-    rests = motion is None or motion.kind == "stand"
-    if rests and noun.name in nouns_with("works on demand"):
-        return STANDING
-    if motion is None:
-        return Motion("work")
-    kept = motion.direction in ("clockwise", "counter-clockwise", "left", "right")
-    direction = motion.direction if kept else None
-    pace, said, own_hz = motion.pace, {}, trait_value("turns per second", noun.name)
-    belt_m_s = trait_value("belt speed", noun.name)
-    if direction == "left" and belt_m_s is not None and noun.name in nouns_with("flat pattern"):
-        direction = "clockwise"  # backwards: its belt runs to the right of who sees its front
-    if motion.rate_hz is not None and own_hz is not None:
-        pace, said = motion.rate_hz / own_hz, {"rate_hz": motion.rate_hz}
-    elif motion.speed_m_s is not None and belt_m_s is not None:
-        pace, said = motion.speed_m_s / belt_m_s, {"speed_m_s": motion.speed_m_s}
-    elif motion.kind in ("spin", "turn", "swing"):  # "rotates" is no slower than usual
-        pace = max(pace, 1.0)
-    return Motion("work", direction, pace, end_pace=motion.end_pace, **said)
 
 
 def _rest(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:

@@ -9,7 +9,14 @@ import numpy as np
 
 from texvent_scenes.checks.staged_clip import StagedClip, is_inside
 from texvent_scenes.description import Claim
-from texvent_scenes.models.activities import ACTIVITIES, PERSON_NOUNS, SAT, TIMED, TRAVELLING
+from texvent_scenes.models.activities import (
+    ACTIVITIES,
+    ANIMAL_ACTIVITIES,
+    PERSON_NOUNS,
+    SAT,
+    TIMED,
+    TRAVELLING,
+)
 from texvent_scenes.models.tables import trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor
@@ -386,7 +393,7 @@ def is_doing(staged: StagedClip, claim: Claim) -> bool:
     """Whether a person, a hand or an animal does it at some instant.
 
     Who sits down, sits; it may be done seated ("sit and read"); what jumps leaves the ground; what
-    opens and closes is closed again.
+    opens and closes is closed again; what switches is in another state before.
     """
     first, own = str(claim.value).split()[0], staged.own(claim)
     does = [{part for time_s in staged.times
@@ -394,6 +401,9 @@ def is_doing(staged: StagedClip, claim: Claim) -> bool:
     done = [
         {part.split()[0] for part in each} | ({"sit"} if each & SAT else set()) for each in does
     ]
+    act = ANIMAL_ACTIVITIES.get(str(claim.value))
+    if act is not None and act.to_state and all(len(each) > 1 for each in does):
+        return all(act.to_state in each for each in does)
     is_up = first == "jump" and all(
         max(map(one.lowest_m, staged.times)) > _GROUNDED * one.size_m for one in own
     )

@@ -53,6 +53,10 @@ class Activity:
     """Whether it follows the time of a hop."""
     is_timed: bool = False
     """Whether it happens once, and follows the time since it began."""
+    from_state: str = ""
+    """Activity before it, of what switches from one state to another."""
+    to_state: str = ""
+    """Activity after it: at a stated time it begins at once."""
 
 
 @dataclass(frozen=True)

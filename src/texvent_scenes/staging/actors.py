@@ -155,7 +155,7 @@ class Actor:
         is_timed = state.activity in TIMED
         activity = "trot" if state.activity == "run" and self._is_trotting else state.activity
         return Pose(
-            state.tempo * time_s + 0.37 * self.lead_m,
+            state.tempo * time_s + state.run_s + 0.37 * self.lead_m,
             state.distance_m + self.lead_m,
             state.speed_m_s,
             activity,

@@ -46,7 +46,7 @@ from texvent_scenes.staging.surroundings.environment import (
     water_line,
 )
 from texvent_scenes.staging.surroundings.lamps import LampPlan, plan_lamps
-from texvent_scenes.staging.surroundings.lighting import DARK, choose_lighting
+from texvent_scenes.staging.surroundings.lighting import DARK, choose_lighting, is_unlit_room
 from texvent_scenes.staging.surroundings.pieces import SceneryItem, ViewClearance
 from texvent_scenes.staging.surroundings.scenery import scatter
 from texvent_scenes.staging.tracks.phases import schedule
@@ -178,12 +178,24 @@ def compose_scene(
     )  # fmt: skip
     particles = stage_effects(description, setting)
     still = assemble([item.place() for item in items])
+    if is_unlit_room(ground, description):  # lamps and screens of the room are off
+        still = replace(still, emission=np.zeros_like(still.emission))
     return ComposedScene(
         tuple(actors), still, particles, camera_path, ground, animated_environment, lamps, names,
         tuple(dict.fromkeys([*placer.not_shown, *_list_late(description, duration_s)])),
-        (*dict.fromkeys(placer.notes), *_tell_roads(description, ground, view.road)),
+        (*dict.fromkeys(placer.notes), *_tell_roads(description, ground, view.road),
+         *_tell_dark(description, ground)),
         placer.orphans, tuple(items), tuple(_list_threads(description, actors, duration_s)),
     )  # fmt: skip
+
+
+def _tell_dark(description: SceneDescription, place: PlaceModel) -> Iterator[str]:
+    """That the lamps of a room are off."""
+    if is_unlit_room(place, description):
+        yield (
+            f"the {description.place.name} is dark at {description.light.kind}: the lamps and "
+            'screens of its own are off (the light "lamp" has them on)'
+        )
 
 
 def _tell_roads(

@@ -18,6 +18,7 @@ import numpy as np
 
 from texvent.errors import few, shown
 from texvent_scenes.colours import rgb_of
+from texvent_scenes.default_work import stays_put
 from texvent_scenes.defaults import decide_motions
 from texvent_scenes.description import STANDING, to_description
 from texvent_scenes.models.effects import LAMPS
@@ -57,6 +58,7 @@ TURNS = ("left", "right", "clockwise", "counter-clockwise", "towards", "away", "
 """
 _SHARES = (0.0, 0.07, 0.13, 0.21, 0.29, 0.41, 0.5, 0.6, 0.71, 0.83, 0.97)
 """Instants at which bodies are compared, as shares of the time up to the last start, and after."""
+_UPRIGHT = {"rise": "up", "sink": "down"}
 _USUAL_S = 2.0
 _MOST_KINDS = 12
 """Most kinds of motion that an error names."""
@@ -270,6 +272,10 @@ def _idle_looks(where: str, one: SceneObject, noun: Noun) -> Iterator[Idle]:
 def _idle_motions(where: str, one: SceneObject, body: _Body) -> Iterator[Idle]:
     for number, motion in enumerate(one.motions):
         path = f"{where}.motions[{number}]"
+        if motion.kind == "move" and stays_put(motion, body.noun):
+            why = f"a {one.noun} stays where it is; 'work' runs its belt to the left or right"
+            yield Idle(f"{path}.kind", f"{why} at speed_m_s, 'slide' moves all of it")
+            continue
         if not body.does(one, number):
             is_usual = motion.kind in RESTS
             yield Idle(f"{path}.kind", _why_not_done(body, one, motion.kind), is_usual)
@@ -351,24 +357,50 @@ def _who_reads(body: _Body, one: SceneObject, number: int, name: str) -> str:
         return "speed_m_s takes its place; leave one of them out"
     if name == "direction" and one.heading_deg is not None and motion.kind != "turn":
         return "heading_deg takes its place; leave one of them out"
+    if name == "direction" and motion.kind in _UPRIGHT:
+        straight = f"{shown(motion.kind)} of a {one.noun} goes straight {_UPRIGHT[motion.kind]}"
+        return f"{straight}; leave it out, or give that direction a motion of its own"
     given = getattr(motion, name)
     if name == "start_s" and (landing_s := body.lands_at(one, number)) is not None:
         return (f"what falls bounces as soon as it is down, at {landing_s:.3f} s; leave it out, or "
                 "change the height or the start of the fall")  # fmt: skip
     alone = replace(one, motions=(motion,))
     if number and body.reads(alone, 0, name):
-        return (f"after {shown(one.motions[number - 1].kind)}, {shown(motion.kind)} of a "
-                f"{one.noun} does not read it, for that decides; leave it out")  # fmt: skip
-    readers = _name_kinds(body, lambda other: body.reads(_with(other, 0, **{name: given}), 0, name))
+        before = shown(one.motions[number - 1].kind)
+        return (f"after {before}, {shown(motion.kind)} of a {one.noun} does not read it, for "
+                f"{before} decides; leave it out")  # fmt: skip
+    readers = _name_kinds(
+        body, lambda other: _keeps_place(body.noun, other.motions[0])
+        and body.reads(_with(other, 0, **{name: given}), 0, name),
+    )  # fmt: skip
     if name == "rate_hz" and motion.kind in PATH_KINDS:
         readers = f'{readers}; or direction "to and fro"'
     left = f"these do: {readers}" if readers else f"no motion of a {one.noun} does"
+    if not readers and (read := [*_list_read(body, one, number)]):
+        left = f"it reads {', '.join(read)}"
     return f"{shown(motion.kind)} of a {one.noun} does not read it; {left}"
+
+
+def _keeps_place(noun: Noun, motion: Motion) -> bool:
+    """Whether a motion leaves a noun where it belongs: machines work, others go too."""
+    return not noun.is_working or motion.kind == "work"
+
+
+def _list_read(body: _Body, one: SceneObject, number: int) -> Iterator[str]:
+    """Fields that a motion reads, its times left out."""
+    usual = {"direction": ("left", "clockwise"), "pace": (0.5,), "end_pace": (0.0,),
+             "speed_m_s": (0.3,), "rate_hz": (1.3,)}  # fmt: skip
+    for name, values in usual.items():
+        tried = (_with(one, number, **{name: value}) for value in values)
+        if any(body.reads(each, number, name) for each in tried):
+            yield name
 
 
 def _is_usual(body: _Body, one: SceneObject, number: int, name: str) -> bool:
     """Whether a field without effect says what is so anyway."""
     motion = one.motions[number]
+    if name == "direction" and _UPRIGHT.get(motion.kind) == motion.direction:
+        return True
     if name == "direction" and one.heading_deg is not None and motion.direction in YAWS:
         turn = one.heading_deg - math.degrees(YAWS[motion.direction])
         return abs(math.remainder(turn, 360.0)) < 1e-9

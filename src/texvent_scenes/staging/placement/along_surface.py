@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
-
-import numpy as np
 
 from texvent_scenes.models.activities import ON_GROUND, PERSON_NOUNS, TRAVELLING
 from texvent_scenes.models.anchors import Support
@@ -14,7 +13,13 @@ from texvent_scenes.staging.actors import size_of
 from texvent_scenes.staging.placement.object_groups import ObjectGroup
 from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, Key, flight_s
 from texvent_scenes.staging.tracks.motion_plan import MotionPlan
-from texvent_scenes.staging.tracks.phases import PATH_KINDS, activity_of, usual_speed
+from texvent_scenes.staging.tracks.phases import (
+    PATH_KINDS,
+    Phase,
+    activity_of,
+    paces_of_work,
+    usual_speed,
+)
 from texvent_scenes.staging.tracks.track import Track, centred
 
 _LEAST_HOP_M = 0.25
@@ -144,20 +149,50 @@ def leap_over(group: ObjectGroup, target: ObjectGroup) -> None:
 
 def carry_along(group: ObjectGroup, target: ObjectGroup, support: Support) -> None:
     """Have things on a belt that runs go along with it, up to its end."""
-    usual_m_s, motion = trait_value("belt speed", target.noun.name), target.plan.motion
-    if usual_m_s is None or motion.kind != "work" or motion.pace == 0.0:
+    usual_m_s, duration_s = trait_value("belt speed", target.noun.name), target.plan.duration_s
+    motions = target.scene_object.motions or (target.plan.motion,)
+    if usual_m_s is None or not {one.kind for one in motions} <= {"work", "stand"}:
         return
-    group.carrier, duration_s = None, target.plan.duration_s
-    speed = usual_m_s * motion.pace * size_of(target.models[0])
-    taken = np.ptp([math.hypot(x, y) for x, y, _ in group.offsets]) + group.models[0].length
-    room = max(support.high[0] - support.low[0] - float(taken), 0.0)
-    yaw = target.plan.yaw + (math.pi if motion.direction == "clockwise" else 0.0)
-    going_s = min(room / speed, duration_s)
-    keys = (Key(0.0, speed), Key(going_s, speed), Key(max(duration_s - going_s, 0.01), ramp_s=0.05))
-    path = Track((0.0, 0.0, 0.0), yaw, tuple(replace(key, activity="stand") for key in keys))
+    whole_m_s = usual_m_s * size_of(target.models[0])
+    paces = [*paces_of_work(motions, target.models[0], duration_s)]
+    first = next((pace or end for _, pace, end in paces if pace or end), 0.0)
+    if not first:
+        return
+    group.carrier, way = None, math.copysign(1.0, first)
+    taken = group.models[0].length if group.row_m is None else group.row_m
+    room = max(support.high[0] - support.low[0] - taken, 0.0)
+    steps = [step for one in paces for step in _list_steps(*one)]
+    keys = _list_carried([(span_s, way * whole_m_s * pace) for span_s, pace in steps], room)
+    path = Track((0.0, 0.0, 0.0), target.plan.yaw + (math.pi if way < 0.0 else 0.0), keys)
     slide = replace(group.plan.motion, kind="slide")
     path = centred(path, duration_s)
-    group.plan = replace(group.plan, motion=slide, yaw=yaw, path=path, is_facing=False)
+    group.plan = replace(group.plan, motion=slide, yaw=path.yaw, path=path, is_facing=False)
+
+
+def _list_steps(phase: Phase, pace: float, end: float) -> list[tuple[float, float]]:
+    """Durations and mean paces of a phase of work: one of a steady one."""
+    count = 1 if pace == end else _STEPS
+    middles = ((number + 0.5) / count for number in range(count))
+    return [(phase.duration_s / count, pace + (end - pace) * one) for one in middles]
+
+
+def _list_carried(steps: Sequence[tuple[float, float]], room_m: float) -> tuple[Key, ...]:
+    """Keys of what lies on a belt, up to where the way that it takes is as long as there is room.
+
+    `steps` are durations, s, and speeds, m/s.
+    """
+    keys = [Key(0.0, steps[0][1], activity="stand")]
+    at = low = high = 0.0
+    for span_s, speed in steps:
+        left_m = low + room_m - at if speed > 0.0 else at - (high - room_m)
+        going_s = min(span_s, max(left_m, 0.0) / abs(speed)) if speed else 0.0
+        at += speed * going_s
+        low, high = min(low, at), max(high, at)
+        if going_s > 0.0:
+            keys.append(Key(going_s, speed, ramp_s=0.0, activity="stand"))
+        if going_s < span_s:
+            keys.append(Key(span_s - going_s, ramp_s=0.0, activity="stand"))
+    return tuple(keys)
 
 
 def stop_at_edge(group: ObjectGroup, target: ObjectGroup, support: Support) -> None:

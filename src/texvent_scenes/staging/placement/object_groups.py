@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -28,6 +28,9 @@ from texvent_scenes.staging.tracks.choose_track import orbit_radius
 from texvent_scenes.staging.tracks.keys import Vector
 from texvent_scenes.staging.tracks.motion_plan import MotionPlan
 from texvent_scenes.staging.tracks.track import sample_places
+
+if TYPE_CHECKING:
+    from texvent_scenes.staging.placement.apart import Spacing
 
 GAP_M = 0.25
 """Least space between two objects, in units of the smaller one's size."""
@@ -61,6 +64,17 @@ class ObjectGroup:
     """Heading of each copy, where they differ."""
     on_chairs: bool = False
     """Whether each of its people sits on a chair that comes with them."""
+    spacing: Spacing | None = None
+    """Distances of what rests beside it on the same thing."""
+    row_m: float | None = None
+    """Length of the row in which it is on something; None: it is on the ground."""
+
+    @property
+    def middle(self) -> Float64Array:
+        """[3] its middle, m: of what is in a row on something, that of its copies there."""
+        if self.row_m is None:
+            return self.centre
+        return np.asarray(self.centre + np.mean(self.offsets, axis=0))
 
     @property
     def size_m(self) -> float:

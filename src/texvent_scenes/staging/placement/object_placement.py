@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from texvent.errors import ConfigError
 from texvent_scenes.colours import rgb_of
 from texvent_scenes.description import STANDING, IndexedRelation, SceneDescription
 from texvent_scenes.models.activities import PERSON_NOUNS
@@ -22,6 +23,13 @@ from texvent_scenes.staging.actors import Actor, is_centred, lowest_point, seede
 from texvent_scenes.staging.camera.journey import TravelPlan
 from texvent_scenes.staging.interactions.perform import perform_acts, settle_motions
 from texvent_scenes.staging.placement.along_route import RoutePlacer
+from texvent_scenes.staging.placement.apart import (
+    RESTING,
+    NoRoomError,
+    list_awaited,
+    list_unkept,
+    plan_spacing,
+)
 from texvent_scenes.staging.placement.object_groups import (
     Goal,
     ObjectGroup,
@@ -101,6 +109,7 @@ class ObjectPlacer:
         """Objects that have no place, and why."""
         self.notes: list[str] = []
         """Sizes that are not the usual ones, and why."""
+        self._why_apart = ""
         self._travel = travel
         bodies = sum(scene_object.count for scene_object in description.objects)
         self._along = None if travel is None else RoutePlacer(travel, duration_s, bodies)
@@ -116,6 +125,8 @@ class ObjectPlacer:
         for index in sorted(range(len(objects)), key=lambda one: objects[one].position_m is None):
             if index not in self.orphans:
                 self._place(index, frozenset())
+        for one, why in list_unkept(self._description, self.groups):
+            self._tell_distance(one, why)
         actors: list[Actor] = []
         for index in sorted(self.groups):
             actors.extend(self._populate(self.groups[index], len(actors)))
@@ -167,6 +178,8 @@ class ObjectPlacer:
         for relation in related:
             for target in relation.targets if relation.kind in ON_TARGET else ():
                 self._place(target, waiting | {index})
+        for other in list_awaited(self._description, index):
+            self._place(other, waiting | {index})
         join_way(group, self.groups.values())
         goal = self._choose_goal(group, related)
         self._match_paces(group)
@@ -213,14 +226,13 @@ class ObjectPlacer:
                     way = lead(group, relation.kind, targets[0], self._pushed_m(group.index))
                     return Goal(way, np.zeros(3))
             elif relation.kind in ON_TARGET and targets:
-                shared = self._list_sharing(relation)
-                return place_on_targets(group, relation.kind, targets, height, shared)
-        for relation in related:
+                return self._rest(group, relation, targets, height)
+        for relation in sorted(related, key=lambda one: one.distance_m is None):
             if relation.kind in INVERSE and relation.targets[0] in self.groups:
                 target = self.groups[relation.targets[0]]
                 goal = place_by_subject(group, INVERSE[relation.kind], target, height)
                 return place_at_distance(goal, relation, target, 1.0)
-        for relation in self._description.relations:
+        for relation in sorted(self._description.relations, key=lambda one: one.distance_m is None):
             if group.index in relation.targets and relation.subject in self.groups:
                 subject = self.groups[relation.subject]
                 goal = place_by_subject(group, relation.kind, subject, height)
@@ -231,6 +243,41 @@ class ObjectPlacer:
             is_goal = scene.index(scene.camera.target) == group.index
             return Goal(self._along.place(group, height, is_goal=is_goal), np.zeros(3))
         return self._choose_free_goal(group, height)
+
+    def _rest(
+        self, group: ObjectGroup, relation: IndexedRelation, targets: Sequence[ObjectGroup],
+        height: float,
+    ) -> Goal:  # fmt: skip
+        """Goal of a group on its targets, at stated distances from what is there too."""
+        shared = self._list_sharing(relation)
+        if relation.kind in RESTING:
+            group.spacing = plan_spacing(self._description, shared, self.groups, self.build_group)
+        try:
+            return place_on_targets(group, relation.kind, targets, height, shared)
+        except NoRoomError as error:
+            self._why_apart = str(error)
+        group.spacing = None
+        return place_on_targets(group, relation.kind, targets, height, shared)
+
+    def _tell_distance(self, relation: IndexedRelation, why: str) -> None:
+        """Refuse a distance of a file that cannot be kept; of a sentence it is not shown.
+
+        Raises:
+            ConfigError: it is that of a file.
+        """
+        scene, subject = self._description, relation.subject
+        why = self._why_apart or why
+        if scene.prompt:
+            noun, other = (scene.objects[n].noun for n in (subject, relation.targets[0]))
+            distance = f"{relation.distance_m:g} m {relation.kind} the {other}"
+            self.not_shown.append(f"the {noun} {distance} ({why})")
+            return
+        own = [one for one in scene.relations if one.subject == subject]
+        where = f"objects[{subject}].relations[{own.index(relation)}].distance_m"
+        raise ConfigError(
+            f"{where} is {relation.distance_m:g}, which cannot be kept: {why}; give another one, "
+            "or leave it out"
+        )
 
     def _pushed_m(self, index: int) -> float:
         """Length of what an object pushes before it, m."""

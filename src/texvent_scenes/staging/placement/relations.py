@@ -17,7 +17,7 @@ from texvent_scenes.models.activities import (
 from texvent_scenes.models.anchors import Support, find_support
 from texvent_scenes.models.people.person import SEAT
 from texvent_scenes.models.protocol import Model, Pose
-from texvent_scenes.models.shapes import bounds
+from texvent_scenes.models.shapes import bounds, point
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.data import WAYS
@@ -29,6 +29,7 @@ from texvent_scenes.staging.placement.along_surface import (
     leap_up,
     stop_at_edge,
 )
+from texvent_scenes.staging.placement.apart import SIDES, Spacing
 from texvent_scenes.staging.placement.approaches import lead_over
 from texvent_scenes.staging.placement.containers import (
     depth_in,
@@ -56,9 +57,6 @@ INVERSE: Mapping[str, str] = {
 }  # fmt: skip
 """Relation of a subject to its target → that of the target to the subject."""
 _FIXED, _AWAY, _ALONG_X = np.zeros(3), np.array([0.0, 1.0, 0.0]), np.array([1.0, 0.0, 0.0])
-_SIDES = {"left of": (-1.0, 0.0), "right of": (1.0, 0.0), "behind": (0.0, 1.0),
-          "front": (0.0, -1.0), "beside": (1.0, 0.0)}  # fmt: skip
-"""Relation with a distance → where its subject is, seen from the target, on the ground."""
 _INTO_PICTURE = 0.6
 """Angle to the picture of the way between two things, rad."""
 _COVERED = 0.55
@@ -258,7 +256,7 @@ def place_at_distance(
     """
     if relation.distance_m is None:
         return goal
-    place = other.centre[:2] + sign * relation.distance_m * np.array(_SIDES[relation.kind])
+    place = other.middle[:2] + sign * relation.distance_m * np.array(SIDES[relation.kind])
     return Goal(np.array([*place, goal.position[2]]), _FIXED)
 
 
@@ -459,6 +457,8 @@ def _line_up(
     that side; None: that of its longer side.
     """
     body, own, several = target.models[0], len(group.offsets), len(target.offsets)
+    is_apart = group.spacing is not None and several == 1
+    neighbours = [group.index] * own if is_apart else neighbours
     first = neighbours.index(group.index)
     axis = 1 if body.width > body.length else 0
     extent, deep = (support.high[one] - support.low[one] for one in (axis, 1 - axis))
@@ -484,3 +484,16 @@ def _line_up(
         x, y = x + along * math.cos(yaw), y + along * math.sin(yaw)
         z += climb * along
         group.offsets.append((x - aside * math.sin(yaw), y + aside * math.cos(yaw), z))
+    group.row_m = spacing * (count - 1) + size
+    if group.spacing is not None and is_apart:
+        _keep_apart(group, target, support, group.spacing)
+
+
+def _keep_apart(
+    group: ObjectGroup, target: ObjectGroup, support: Support, spacing: Spacing
+) -> None:
+    """Put the row of a group's copies where distances have it on the support."""
+    place, group.row_m = spacing.place(group.index, target, support)
+    offsets = np.array(group.offsets)
+    offsets[:, :2] += place - offsets[:, :2].mean(axis=0)
+    group.offsets = [point(one) for one in offsets]

@@ -32,6 +32,7 @@ from texvent_scenes.staging.surroundings.lighting import (
     DEPTHS,
     Lighting,
     choose_lighting,
+    is_unlit_room,
     wave_level,
 )
 from texvent_scenes.staging.tracks.track import steady
@@ -372,7 +373,8 @@ def build_environment(
     the room, where the place is one; half the length of a corridor, of which `corridor_m` is half
     the width.
     """
-    lighting, said = choose_lighting(place, description.light), description.place
+    is_unlit, said = is_unlit_room(place, description), description.place
+    lighting = choose_lighting(place, description.light, is_unlit=is_unlit)
     colour, second = _ground_colours(place, said)
     sky_top, horizon = _sky_colours(place, lighting, said)
     fog_distance, fog_colour = _choose_fog(place, said.weather, horizon, distance_m)

@@ -24,6 +24,7 @@ from texvent_scenes.staging.camera.framing import Framing
 from texvent_scenes.staging.surroundings.lighting import (
     FLAME_SHARES,
     hidden_lamp,
+    is_unlit_room,
     point_lamp,
     wave_level,
 )
@@ -236,9 +237,10 @@ def plan_lamps(
         is_pattern = one.noun.name in nouns_with("flat pattern") and not lamps
         each = replace(each, flashes=is_pattern and said.blink_hz is not None)
         lit += [each] if lamps or each.flashes else []
-    still = _still_lamps(items, strength)
+    is_unlit = is_unlit_room(place, description)
+    still = _still_lamps(() if is_unlit else items, strength)
     focus = np.asarray(framing.target, dtype=np.float64)
-    is_dark = strength > 0.0 and place.ground not in _UNLIT
+    is_dark = strength > 0.0 and place.ground not in _UNLIT and not is_unlit
     own = np.concatenate([_NO_LAMPS, *(one.steady_at(0.0) for one in lit)])
     is_lit = (own["full"] < -1.0) & (own["light"].max(axis=1, initial=0.0) >= _LIGHTS_A_ROOM)
     if is_dark and not len(still) and not is_lit.any():

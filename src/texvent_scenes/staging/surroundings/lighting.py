@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from texvent_scenes.models.places import PlaceModel
 from texvent_scenes.rendered_scene import LAMP_RECORD, Colour, Float64Array, Ground
-from texvent_scenes.spec.scene import Light
+from texvent_scenes.spec.scene import Light, Scene
 
 _WARM: Colour = (1.0, 0.72, 0.40)
 _LAMP_OFFSET = np.array([-0.25, -0.25, 0.55])
@@ -86,9 +86,29 @@ DARK = ("night", "moonlight", "lamp")
 """Kinds of light by which a sky is dark."""
 
 
-def choose_lighting(place: PlaceModel, light: Light) -> Lighting:
-    """The lighting of a place at a time of day, or under another light of `LIGHTINGS`."""
+_THROUGH_WINDOWS = 0.2
+"""Share of the light of a night sky that is left in a room without lamps."""
+
+
+def is_unlit_room(place: PlaceModel, scene: Scene) -> bool:
+    """Whether a room at night has no light of its own: where the scene has lamps, or no sentence.
+
+    In a room of a sentence somebody has switched on the light.
+    """
+    is_night = scene.light.kind in ("night", "moonlight")
+    return place.is_room and is_night and (not scene.prompt or bool(scene.light.lamps))
+
+
+def choose_lighting(place: PlaceModel, light: Light, *, is_unlit: bool = False) -> Lighting:
+    """The lighting of a place at a time of day, or under another light of `LIGHTINGS`.
+
+    `is_unlit` is as of `is_unlit_room`.
+    """
     kind = light.kind or "day"
+    if is_unlit:
+        chosen = LIGHTINGS[kind]
+        red, green, blue = (_THROUGH_WINDOWS * one for one in chosen.ambient)
+        return replace(chosen, sun=(0.0, 0.0, 0.0), ambient=(red, green, blue), shadows=False)
     if place.light == "underwater":
         return _UNDERWATER
     if place.light == "space" or (place.light and kind not in DARK):

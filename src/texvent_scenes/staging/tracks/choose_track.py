@@ -55,6 +55,8 @@ def choose_track(
         rng: decides phases.
     """
     kind, direction = plan.motion.kind, plan.motion.direction
+    if plan.work:
+        return replace(steady(home, plan.yaw), terms=plan.work)
     if plan.path is not None:
         x, y, z = np.add(plan.path.start, home)
         # What flies stays above the ground.

@@ -26,9 +26,11 @@ from texvent_scenes.staging.tracks.phases import (
     YAWS,
     done_on_the_way,
     needs_steering,
+    time_of_work,
     usual_speed,
+    works_in_turn,
 )
-from texvent_scenes.staging.tracks.track import Track
+from texvent_scenes.staging.tracks.track import Term, Track
 from texvent_scenes.staging.tracks.turning import axle_of
 
 _OF_CAMERA, _LOOMING = ("towards", "away"), 45.0
@@ -65,6 +67,8 @@ class MotionPlan:
     """Height above the ground at which what falls, bounces or sinks begins; None: the usual one."""
     is_facing: bool = False
     """Whether it shows its front to the camera while it moves: a board with a pattern."""
+    work: tuple[Term, ...] = ()
+    """Time of the parts of what works and rests in turn."""
     is_laid: bool = False
     """Whether a thing that usually stands lies on its side."""
 
@@ -127,6 +131,9 @@ def plan_motion(
     if stated is None and motion.kind == "fly" and motion.direction in _OF_CAMERA:
         size_m = max(model.length, model.width, model.height)
         speed = min(speed, _LOOMING * size_m / duration_s)
+    if noun.is_working and works_in_turn(motions):
+        terms = time_of_work(motions, model, duration_s)
+        return MotionPlan(motion, yaw, speed, duration_s, work=terms)
     is_wheeled = noun.motion == "drive" or getattr(model, "is_wheeled", False)
     is_facing = _faces_camera(
         noun, model, next((one for one in motions if one.kind != "stand"), motion)

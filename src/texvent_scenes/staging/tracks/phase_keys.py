@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import zip_longest
 
 from texvent_scenes.description import SPIN_RATE_HZ, STANDING
 from texvent_scenes.models.activities import (
     ACTIVITIES,
+    ANIMAL_ACTIVITIES,
     DONE_SEATED,
     ON_GROUND,
     PERSON_NOUNS,
@@ -57,6 +59,9 @@ _PLUNGED, _LEAPT, _STOOD, _GONE = 1.0, 0.15, 0.62, 1.4
 """Height above the water of who leaps into it, in its own; rise of the leap, as a share of that;
 how deep who walks stands there, and how deep others go, in their own heights."""
 _BRAKING_M_S2 = 6.0
+_ON_SPOT_S, _LEAST_TURN_S = 0.4, 0.04
+"""Duration of a turn on the spot before a leg, and its least, s."""
+_UPRIGHT = {"up": "rise", "down": "sink"}
 _CLIMB, _TAKE_OFF, _LANDING = 0.45, 0.32, 0.12
 """Metres up or down per metre along: in general, from a runway, and to it."""
 _ALONG_GROUND = frozenset({"walk", "run", "crawl", "drive", "roll", "slide"})
@@ -104,10 +109,10 @@ def build_path(
         start_m = fallen_m(model, spans[0] if spans else duration_s)
     builder = _KeyBuilder(
         noun, model, stated_m_s, yaw, is_single=len(phases) == 1, spin_axis=spin_axis,
-        start_m=start_m,
+        start_m=start_m, has_times=any(one.start_s is not None for one in motions),
     )  # fmt: skip
     builder.hurry(phases)
-    for phase in phases:
+    for phase in _switched(phases, motions[0]):
         builder.add(phase)
     first = replace(builder.keys[0], activity=builder.keys[1].activity)
     path = Track(
@@ -121,6 +126,22 @@ def build_path(
         edge_m=builder.edge_m,
     )
     return centred(path, duration_s)
+
+
+def _switched(phases: Sequence[Phase], first: Motion) -> Iterator[Phase]:
+    """The phases; what switches to another state at a stated time is in it from then on.
+
+    What rests before its `first` motion is in the state from which it switches.
+    """
+    for one, after in zip_longest(phases, phases[1:]):
+        now = ANIMAL_ACTIVITIES.get(one.motion.kind)
+        later = ANIMAL_ACTIVITIES.get(after.motion.kind) if after is not None else None
+        kind = one.motion.kind
+        if now is not None and now.to_state and one.motion.start_s is not None:
+            kind = now.to_state
+        elif one is phases[0] and one.motion is not first and later is not None:
+            kind = later.from_state or kind
+        yield replace(one, motion=replace(one.motion, kind=kind))
 
 
 def falls_sideways(noun: Noun) -> bool:
@@ -158,7 +179,7 @@ class _KeyBuilder:
 
     def __init__(
         self, noun: Noun, model: Model, stated_m_s: float | None, yaw: float, *, is_single: bool,
-        spin_axis: str, start_m: float | None,
+        spin_axis: str, start_m: float | None, has_times: bool = False,
     ) -> None:  # fmt: skip
         """For a body that heads there at first."""
         self._noun, self._model = noun, model
@@ -166,6 +187,7 @@ class _KeyBuilder:
         self._stated_m_s, self._haste = stated_m_s, 1.0
         self._is_single = is_single
         self._is_free = noun.habitat in ("air", "water")
+        self._has_legs = has_times and self._is_free and noun.name not in nouns_with("takes off")
         self._is_mobile = noun.speed_m_s > 0.0 and noun.habitat != "fixed"
         self._height = start_m or 0.0
         self._heading = yaw
@@ -179,7 +201,7 @@ class _KeyBuilder:
 
     def add(self, phase: Phase) -> None:
         """Append the keys of one phase."""
-        motion, span = phase.motion, phase.duration_s
+        motion, span = self._upright(phase.motion), phase.duration_s
         self._is_beginning = True
         self._was_spinning, self._is_spinning = self._is_spinning, motion.kind == "spin"
         if motion.direction in SWINGS and motion.kind in STEERED:
@@ -207,6 +229,41 @@ class _KeyBuilder:
             waves = oscillations(motion, self._model, 0.0) if motion.kind not in PATH_KINDS else ()
             self.terms += between(waves, phase.start_s, phase.end_s)
             self._rest(motion, span)
+
+    def _upright(self, motion: Motion) -> Motion:
+        """The motion of a leg: of what flies or swims up or down, straight up or down."""
+        is_leg = self._has_legs and motion.kind in ("fly", "swim")
+        kind = _UPRIGHT.get(motion.direction or "")
+        if not is_leg or kind is None or motion.end_pace is not None:
+            return motion
+        return replace(motion, kind=kind, direction=None, speed_m_s=abs(self._speed(motion)))
+
+    def _turn_on_the_spot(self, motion: Motion, angle: float) -> bool:
+        """Turn in the time before a leg, of what is at rest or goes straight up or down then.
+
+        Tell whether there is room for it.
+        """
+        *_, before, last = [Key(0.0), *self.keys]
+        speed, turn, _, pitch = last.rates
+        is_plain = last.restitution is None and not (last.hop_m or last.swing_hz)
+        is_plain &= speed == turn == pitch == 0.0
+        if motion.start_s is None or not is_plain or least_radius(self._model, self._noun):
+            return False
+        is_even = before.rates == last.rates
+        room_s = last.duration_s if is_even else last.duration_s - last.ramp_s
+        turn_s = min(_ON_SPOT_S, 0.55 * room_s)
+        rest_s = min(_RAMP_S, 0.4 * room_s)
+        if turn_s < _LEAST_TURN_S:
+            return False
+        still = replace(last, duration_s=0.5 * turn_s, ramp_s=0.5 * turn_s)
+        self.keys[-1:] = [
+            replace(last, duration_s=last.duration_s - turn_s - rest_s),
+            replace(still, turn_rad_s=2.0 * angle / turn_s),
+            still,
+            replace(last, duration_s=rest_s, ramp_s=0.0),
+        ]
+        self._heading += angle
+        return True
 
     def _spin_on(self, phase: Phase) -> None:
         """Turn a wheel about its axle, or a flat shape in the picture."""
@@ -283,6 +340,9 @@ class _KeyBuilder:
         if motion.kind == "slide" and self._noun.motion == "drive":
             self._swing_round(span)
         segments = self._choose_segments(motion, span)
+        is_leg = motion.kind in PATH_KINDS and len(segments) == 2 and motion.direction in YAWS
+        if is_leg and self._turn_on_the_spot(motion, segments[0][1]):
+            segments = [(1.0, 0.0)]
         if end is None and not climb and self._go_round_corner(motion, segments, speed, span):
             return
         self._start(speed)

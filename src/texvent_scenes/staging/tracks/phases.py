@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,6 +19,7 @@ from texvent_scenes.models.protocol import Model, Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.spec.scene import Motion
 from texvent_scenes.staging.tracks.track import Term
+from texvent_scenes.staging.tracks.turning import work_sign
 
 PATH_KINDS = TRAVELLING | frozenset({"drive", "fly", "sail", "paddle", "slide", "roll", "move"})
 """Motions from one place to another."""
@@ -224,3 +225,39 @@ def between(terms: tuple[Term, ...], begin_s: float, end_s: float) -> tuple[Term
         offset = one.offset - one.drift * begin_s
         found.append(one._replace(phase=phase, offset=offset, begin_s=begin_s, end_s=last_s))
     return tuple(found)
+
+
+def works_in_turn(motions: Sequence[Motion]) -> bool:
+    """Whether something works at one pace after the other, or rests from a time on or up to it."""
+    kinds = {one.kind for one in motions}
+    is_list = len(motions) > 1 or bool(motions[0].start_s)
+    return is_list and "work" in kinds and kinds <= {"work", "stand"}
+
+
+def paces_of_work(
+    motions: Sequence[Motion], model: Model, duration_s: float
+) -> Iterator[tuple[Phase, float, float]]:
+    """Phases of what works in turn, with the pace at the start and at the end of each.
+
+    A negative pace runs backwards.
+    """
+    for phase in schedule(motions, duration_s):
+        motion = phase.motion
+        sign = work_sign(motion.direction, model) if motion.kind == "work" else 0.0
+        end = motion.pace if motion.end_pace is None else motion.end_pace
+        yield phase, sign * motion.pace, sign * end
+
+
+def time_of_work(
+    motions: Sequence[Motion], model: Model, duration_s: float
+) -> tuple[Term, ...]:  # fmt: skip
+    """Time of the parts of what works in turn beside that of the clip: its rates are the paces."""
+    terms = []
+    for phase, pace, end in paces_of_work(motions, model, duration_s):
+        begin_s, rate, gain = phase.start_s, pace - 1.0, (end - pace) / phase.duration_s
+        is_last = phase.end_s >= duration_s and not gain
+        terms.append(Term(
+            "run_s", offset=(0.5 * gain * begin_s - rate) * begin_s, drift=rate - gain * begin_s,
+            gain=gain, begin_s=begin_s, end_s=math.inf if is_last else phase.end_s,
+        ))  # fmt: skip
+    return tuple(terms)

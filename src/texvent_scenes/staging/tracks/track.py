@@ -61,6 +61,8 @@ class BodyState:
     """`Pose.grips`."""
     tempo: float = 1.0
     """Rate of its gestures, as a multiple of their usual rate."""
+    run_s: float = 0.0
+    """Time that is added to that of its parts, s: of what works and rests in turn."""
     scale: float = 1.0
     """Size, as a multiple of that of its model."""
 
@@ -109,7 +111,7 @@ class Term(NamedTuple):
     """A constant, a drift and a sine that are added to one channel."""
 
     channel: str
-    """`BodyState`: "x", "y", "z", "yaw", "pitch", "roll", "tempo", "scale"; cameras have
+    """`BodyState`: "x", "y", "z", "yaw", "pitch", "roll", "tempo", "run_s", "scale"; cameras have
     their own."""
     amplitude: float = 0.0
     rate_hz: float = 0.0
@@ -168,7 +170,9 @@ class Swing:
     def looks(self, time_s: float) -> dict[str, Any]:
         """Fields of its state that are its own."""
         state = self.track.at(time_s)
-        return {name: getattr(state, name) for name in ("activity", "act_s", "tempo", "scale")}
+        return {
+            name: getattr(state, name) for name in ("activity", "act_s", "tempo", "run_s", "scale")
+        }
 
 
 @dataclass(frozen=True)
@@ -241,7 +245,8 @@ class Track:
     def is_resting(self) -> bool:
         """Whether nothing but its limbs moves."""
         is_still = not any(any(key.rates) or key.hop_m or key.restitution for key in self.keys)
-        return is_still and self.anchor is None and {one.channel for one in self.terms} <= {"tempo"}
+        own = {one.channel for one in self.terms} - {"tempo", "run_s"}
+        return is_still and self.anchor is None and not own
 
     @cached_property
     def _knots(self) -> list[Knot]:

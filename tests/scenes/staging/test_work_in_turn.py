@@ -1,0 +1,123 @@
+"""What works starts, stops and runs backwards at stated times; belts take along what is on them."""
+
+import itertools
+
+import numpy as np
+import pytest
+from tests.scenes.every_row import for_every
+
+from texvent.errors import ConfigError
+from texvent_scenes.defaults import complete
+from texvent_scenes.description import to_description
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
+from texvent_scenes.scene_input import describe_scene
+from texvent_scenes.spec.scene import Motion, Relation, Scene, SceneObject
+from texvent_scenes.staging.placement.object_placement import ObjectPlacer
+
+LEVELS = {"air": 1.5, "water": 0.5, "clear": 0.0}
+WORKING = sorted(one.name for one in NOUNS.values() if one.is_working)
+BELTS = sorted(trait_values("belt speed").keys() - nouns_with("flat pattern"))
+SIGNS = {"left": -1.0, "right": 1.0, None: 1.0}
+
+
+def place(*objects, duration_s=3.0):
+    description = complete(to_description(Scene(objects=objects)), NOUNS)
+    placer = ObjectPlacer(description, NOUNS, seed=3, duration_s=duration_s, level_m=LEVELS)
+    return placer.place_all()
+
+
+def drawn(actor, time_s):
+    """All that is seen of a body: places of its parts in the world, and their light."""
+    placed = actor.place(time_s)
+    axes = np.vstack([placed.to_world, [0.0, 0.0, 0.0, 1.0]])
+    parts = [axes @ np.vstack([one.to_body, [0, 0, 0, 1]]) for one in placed.parts]
+    return np.array(parts), np.array([one.emission for one in placed.parts])
+
+
+def changes(actor, begin_s, end_s):
+    first, *later = (drawn(actor, t) for t in np.linspace(begin_s, end_s, 7))
+    return any(not np.allclose(a, b, rtol=0.0, atol=1e-9) for one in later
+               for a, b in zip(first, one, strict=True))  # fmt: skip
+
+
+@for_every(itertools.product(WORKING, (0.7, 1.2)))
+def test_what_works_stops_where_it_is_said_to_stand(row):
+    noun, stop_s = row
+    motions = (Motion("work"), Motion("stand", start_s=stop_s))
+    (actor,) = place(SceneObject(noun, motions=motions))
+    (alone,) = place(SceneObject(noun, motions=(Motion("work"),)))
+    assert changes(actor, 0.0, stop_s) == changes(alone, 0.0, stop_s)
+    assert not changes(actor, stop_s, 3.0)
+
+
+@for_every(itertools.product(WORKING, (0.7, 1.2), (False, True)))
+def test_what_works_rests_up_to_the_time_it_starts(row):
+    noun, start_s, is_said = row
+    motions = (Motion("stand"),) * is_said + (Motion("work", start_s=start_s),)
+    (actor,) = place(SceneObject(noun, motions=motions))
+    (alone,) = place(SceneObject(noun, motions=(Motion("work"),)))
+    assert not changes(actor, 0.0, start_s)
+    assert changes(actor, start_s, start_s + 1.5) == changes(alone, 0.0, 1.5)
+
+
+@for_every(itertools.product(sorted(trait_values("turns per second")), (0.5, 2.0), (0.8, 1.3)))
+def test_what_turns_at_a_rate_has_turned_so_often_when_it_stops(row):
+    noun, rate_hz, stop_s = row
+    motions = (Motion("work", rate_hz=rate_hz), Motion("stand", start_s=stop_s))
+    if not NOUNS[noun].is_working:
+        return
+    describe_scene(Scene(objects=(SceneObject(noun, motions=motions),)), NOUNS)
+    (actor,) = place(SceneObject(noun, motions=motions))
+    own_hz = trait_value("turns per second", noun)
+    run_s = actor.pose(3.0).time_s - actor.pose(0.0).time_s
+    assert own_hz * run_s == pytest.approx(rate_hz * stop_s, abs=1e-9)
+
+
+@for_every(itertools.product(BELTS, (None, "left", "right"), ("work", "move"), (0.1, 0.3, 0.5),
+                             ("mug", "apple", "bottle")))  # fmt: skip
+def test_a_belt_and_what_is_on_it_go_as_fast_as_said_and_stop_together(row):
+    belt, way, kind, speed, noun = row
+    motions = (Motion(kind, way, speed_m_s=speed), Motion("stand", start_s=1.25))
+    on = SceneObject(noun, relations=(Relation("on", (belt,)),))
+    scene = Scene(objects=(SceneObject(belt, motions=motions), on))
+    describe_scene(scene, NOUNS)
+    below, actor = place(*scene.objects)
+    x = [actor.track.at(t).position[0] for t in (0.0, 0.5, 1.25, 3.0)]
+    np.testing.assert_allclose(np.diff(x), SIGNS[way] * speed * np.array([0.5, 0.75, 0.0]),
+                               atol=1e-9)  # fmt: skip
+    assert below.track.at(3.0).position == pytest.approx(below.track.at(0.0).position)
+    own = trait_value("belt speed", belt)
+    assert below.pose(3.0).time_s * own == pytest.approx(speed * 1.25)
+
+
+@for_every(itertools.product(BELTS, (("left", "right"), ("right", "left"), (None, "left")),
+                             (0.2, 0.4)))  # fmt: skip
+def test_a_belt_runs_back_with_what_is_on_it(row):
+    belt, (there, back), speed = row
+    motions = (Motion("work", there, speed_m_s=speed), Motion("stand", start_s=1.0),
+               Motion("work", back, speed_m_s=2 * speed, start_s=1.5))  # fmt: skip
+    on = SceneObject("mug", relations=(Relation("on", (belt,)),))
+    _, actor = place(SceneObject(belt, motions=motions), on)
+    x = [actor.track.at(t).position[0] for t in (0.0, 1.0, 1.5, 2.0)]
+    sign = SIGNS[there]
+    np.testing.assert_allclose(np.diff(x), [sign * speed, 0.0, -sign * speed], atol=1e-9)
+
+
+@pytest.mark.parametrize("belt", BELTS)
+@pytest.mark.parametrize("way", ["towards", "away", "up"])
+def test_the_usual_motion_of_a_belt_moves_no_machine(belt, way):
+    scene = Scene(objects=(SceneObject(belt, motions=(Motion("move", way),)),))
+    with pytest.raises(ConfigError, match=r"motions\[0\]\.kind .* 'work' runs its belt"):
+        describe_scene(scene, NOUNS)
+
+
+@for_every(itertools.product(WORKING, ("speed_m_s", "rate_hz")))
+def test_what_a_machine_does_not_read_is_refused_without_motions_that_carry_it_off(row):
+    noun, name = row
+    scene = Scene(objects=(SceneObject(noun, motions=(Motion("work", **{name: 0.7}),)),))
+    try:
+        describe_scene(scene, NOUNS)
+    except ConfigError as error:
+        words = str(error).partition("does not read it; ")[2]
+        assert words.startswith("it reads ")
