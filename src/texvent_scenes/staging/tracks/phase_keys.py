@@ -252,7 +252,7 @@ class _KeyBuilder:
         is_even = before.rates == last.rates
         room_s = last.duration_s if is_even else last.duration_s - last.ramp_s
         turn_s = min(_ON_SPOT_S, 0.55 * room_s)
-        rest_s = min(_RAMP_S, 0.4 * room_s)
+        rest_s = min(RAMP_S, 0.4 * room_s)
         if turn_s < _LEAST_TURN_S:
             return False
         still = replace(last, duration_s=0.5 * turn_s, ramp_s=0.5 * turn_s)
