@@ -13,8 +13,8 @@ from texvent_scenes.models.places import PlaceModel
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.placement.zones import zone_of
+from texvent_scenes.staging.tracks.flight_keys import QUARTER
 from texvent_scenes.staging.tracks.keys import Key, arc
-from texvent_scenes.staging.tracks.phase_keys import QUARTER
 from texvent_scenes.staging.tracks.phases import least_radius
 from texvent_scenes.staging.tracks.track import Track
 

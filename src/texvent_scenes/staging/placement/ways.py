@@ -31,8 +31,8 @@ from texvent_scenes.staging.actors import size_of
 from texvent_scenes.staging.placement.along_surface import go_down
 from texvent_scenes.staging.placement.object_groups import ObjectGroup
 from texvent_scenes.staging.placement.rims import fits, go_through
+from texvent_scenes.staging.tracks.flight_keys import DULL, QUARTER
 from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, Key, flight_s
-from texvent_scenes.staging.tracks.phase_keys import DULL, QUARTER
 from texvent_scenes.staging.tracks.phases import GOING, YAWS, activity_of, speeds_of, usual_speed
 from texvent_scenes.staging.tracks.track import Track, centred
 

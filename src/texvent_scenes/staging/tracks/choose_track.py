@@ -10,16 +10,10 @@ import numpy as np
 from texvent_scenes.description import SPIN_RATE_HZ
 from texvent_scenes.models.activities import ANIMAL_ACTIVITIES
 from texvent_scenes.models.protocol import Model
+from texvent_scenes.staging.tracks.flight_keys import BOUNCY, DULL, NO_FLOOR_M, fallen_m
 from texvent_scenes.staging.tracks.keys import Vector, ahead
 from texvent_scenes.staging.tracks.motion_plan import MotionPlan
-from texvent_scenes.staging.tracks.phase_keys import (
-    BOUNCY,
-    DULL,
-    NO_FLOOR_M,
-    fallen_m,
-    spin_lift,
-    to_and_fro,
-)
+from texvent_scenes.staging.tracks.phase_keys import spin_lift, to_and_fro
 from texvent_scenes.staging.tracks.phases import (
     LEANING,
     PATH_KINDS,

@@ -18,7 +18,8 @@ from texvent_scenes.models.activities import (
 from texvent_scenes.models.protocol import Model, Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.spec.scene import Motion
-from texvent_scenes.staging.tracks.phase_keys import build_path, falls_sideways
+from texvent_scenes.staging.tracks.flight_keys import falls_sideways
+from texvent_scenes.staging.tracks.phase_keys import build_path
 from texvent_scenes.staging.tracks.phases import (
     COMING_DOWN,
     GOING,
