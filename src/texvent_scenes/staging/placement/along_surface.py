@@ -147,25 +147,30 @@ def leap_over(group: ObjectGroup, target: ObjectGroup) -> None:
     group.fit()
 
 
-def carry_along(group: ObjectGroup, target: ObjectGroup, support: Support) -> None:
-    """Have things on a belt that runs go along with it, up to its end."""
+def carried_way(target: ObjectGroup) -> list[tuple[float, float]]:
+    """Durations, s, of a belt in turn, and its speeds, m/s; empty for what does not run."""
     usual_m_s, duration_s = trait_value("belt speed", target.noun.name), target.plan.duration_s
     motions = target.scene_object.motions or (target.plan.motion,)
     if usual_m_s is None or not {one.kind for one in motions} <= {"work", "stand"}:
-        return
+        return []
     whole_m_s = usual_m_s * size_of(target.models[0])
-    paces = [*paces_of_work(motions, target.models[0], duration_s)]
-    first = next((pace or end for _, pace, end in paces if pace or end), 0.0)
-    if not first:
+    paces = paces_of_work(motions, target.models[0], duration_s)
+    steps = [(span_s, whole_m_s * pace) for one in paces for span_s, pace in _list_steps(*one)]
+    return steps if any(speed for _, speed in steps) else []
+
+
+def carry_along(group: ObjectGroup, target: ObjectGroup, support: Support) -> None:
+    """Have things on a belt that runs go along with it, up to its end."""
+    steps = carried_way(target)
+    if not steps:
         return
-    group.carrier, way = None, math.copysign(1.0, first)
+    group.carrier, way = None, math.copysign(1.0, next(speed for _, speed in steps if speed))
     taken = group.models[0].length if group.row_m is None else group.row_m
     room = max(support.high[0] - support.low[0] - taken, 0.0)
-    steps = [step for one in paces for step in _list_steps(*one)]
-    keys = _list_carried([(span_s, way * whole_m_s * pace) for span_s, pace in steps], room)
+    keys = _list_carried([(span_s, way * speed) for span_s, speed in steps], room)
     path = Track((0.0, 0.0, 0.0), target.plan.yaw + (math.pi if way < 0.0 else 0.0), keys)
     slide = replace(group.plan.motion, kind="slide")
-    path = centred(path, duration_s)
+    path = centred(path, target.plan.duration_s)
     group.plan = replace(group.plan, motion=slide, yaw=path.yaw, path=path, is_facing=False)
 
 

@@ -16,8 +16,8 @@ from texvent_scenes.models.activities import (
 )
 from texvent_scenes.models.anchors import Support, find_support
 from texvent_scenes.models.people.person import SEAT
-from texvent_scenes.models.protocol import Model, Pose
-from texvent_scenes.models.shapes import bounds, point
+from texvent_scenes.models.protocol import Pose
+from texvent_scenes.models.shapes import bounds
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.data import WAYS
@@ -29,7 +29,7 @@ from texvent_scenes.staging.placement.along_surface import (
     leap_up,
     stop_at_edge,
 )
-from texvent_scenes.staging.placement.apart import SIDES, Spacing
+from texvent_scenes.staging.placement.apart import SIDES
 from texvent_scenes.staging.placement.approaches import lead_over
 from texvent_scenes.staging.placement.containers import (
     depth_in,
@@ -45,6 +45,7 @@ from texvent_scenes.staging.placement.object_groups import (
 )
 from texvent_scenes.staging.placement.on_way import place_on_way
 from texvent_scenes.staging.placement.rings import STANDING_M, stand_before, stand_in_ring
+from texvent_scenes.staging.placement.rows import line_up
 from texvent_scenes.staging.placement.zones import hangs_on, is_before_face, zone_of
 from texvent_scenes.staging.tracks.phases import PATH_KINDS
 
@@ -73,8 +74,6 @@ _HUNG = 0.58
 """Height of the middle of what hangs on a wall, as a share of the wall's."""
 _OFF_MIDDLE, _FACE_GAP_M = 0.25, 0.01
 """Place of a shape on another one that turns, above its middle, by its height; gap between them."""
-_PERSON_M = 0.5
-"""Room for one of several people on something."""
 
 
 def place_on_targets(
@@ -262,8 +261,6 @@ def place_at_distance(
 
 _OBLIQUE = 0.3
 """Cosine of the angle from which on a body looks to a side of the picture."""
-_ENDS = 0.87
-"""From one end to the other of what is sat on at its ends, of its length."""
 
 
 def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
@@ -283,7 +280,7 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
         go_down(group, target)
         return target.to_world(0.0, 0.0, group.origin_m)
     support = find_support(target.models[0])
-    _line_up(group, target, support, neighbours)
+    line_up(group, target, support, neighbours)
     if [one.kind for one in group.scene_object.motions] == ["jump", "stand"]:
         leap_up(group, target, support)
     if kind == "stand":
@@ -338,7 +335,7 @@ def _hang_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
     own, wall = group.models[0], target.models[0]
     face_m = float(bounds(wall.parts(Pose(0.0, 0.0, 0.0, "stand"))[:1])[1][0])
     support = Support(0.0, (0.0, -0.45 * wall.width), (0.0, 0.45 * wall.width))
-    _line_up(group, target, support, neighbours)
+    line_up(group, target, support, neighbours)
     group.plan = replace(group.plan, yaw=target.plan.yaw)
     group.fit()
     low_m = max(_HUNG * wall.height - 0.5 * own.height, 0.02 * wall.height)
@@ -359,7 +356,7 @@ def _seat_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
     is_seat = target.noun.name in nouns_with("seat")
     seat_m = SEAT * size_of(target.models[0])
     support = find_support(target.models[0], near_m=seat_m if is_seat else None)
-    _line_up(group, target, support, neighbours)
+    line_up(group, target, support, neighbours)
     x, y = support.middle
     if support.high[0] > support.low[0] and target.noun.name not in nouns_with("sat on"):
         x = max(x, support.high[0] - _FRONT_M * scale)
@@ -397,7 +394,7 @@ def _put_in(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
     if target.plan.motion.is_moving:
         group.carrier = target
     reach_m = reach_of(group.models[0], len(neighbours))
-    _line_up(group, target, support, neighbours, reach_m)
+    line_up(group, target, support, neighbours, reach_m)
     if len(neighbours) > 1:  # side by side in their row
         is_wide = target.models[0].width > target.models[0].length
         is_long = group.models[0].length > reach_m
@@ -436,64 +433,3 @@ def place_at(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
         group.plan = replace(group.plan, gesture=SEATED + done[0] if done else "sit", path=None)
     group.fit()
     return np.array([target.centre[0], target.centre[1], group.origin_m])
-
-
-def _slope_of(body: Model) -> float:
-    """Rise of the last part of a body at rest, along its length."""
-    turn = body.parts(Pose(0.0, 0.0, 0.0, "stand"))[-1].to_body
-    return float(turn[2, 0] / math.hypot(turn[0, 0], turn[1, 0]))
-
-
-def _line_up(
-    group: ObjectGroup,
-    target: ObjectGroup,
-    support: Support,
-    neighbours: Sequence[int],
-    reach_m: float | None = None,
-) -> None:
-    """Spread the copies along the longer side of the surface; several carriers share them out.
-
-    Small things for which a row is too long stand in several. `reach_m` is the extent of one along
-    that side; None: that of its longer side.
-    """
-    body, own, several = target.models[0], len(group.offsets), len(target.offsets)
-    is_apart = group.spacing is not None and several == 1
-    neighbours = [group.index] * own if is_apart else neighbours
-    first = neighbours.index(group.index)
-    axis = 1 if body.width > body.length else 0
-    extent, deep = (support.high[one] - support.low[one] for one in (axis, 1 - axis))
-    if extent <= 0.0:
-        extent = 0.8 * max(body.width, body.length)
-    is_person = group.noun.name in PERSON_NOUNS
-    size = _PERSON_M if is_person else max(group.models[0].width, group.models[0].length)
-    size = size if reach_m is None else reach_m
-    count = math.ceil(len(neighbours) / several)
-    rows = math.ceil(1.05 * size * count / extent) if reach_m is None and not is_person else 1
-    rows = max(min(rows, int(deep / (1.05 * size))), 1)
-    count = math.ceil(count / rows)
-    spacing, climb = max(min(0.95 * extent / count, 1.4 * size), min(1.05 * size, extent)), 0.0
-    if is_person and target.noun.name in nouns_with("sat on at its ends") and count > 1:
-        spacing, climb = _ENDS * body.length / (count - 1), _slope_of(body)
-    yaw = target.plan.yaw + 0.5 * math.pi * axis
-    group.offsets = []
-    for number in range(first, first + own):
-        x, y, z = target.offsets[number % several] if several > 1 else (0.0, 0.0, 0.0)
-        row, place = divmod(number // several, count)
-        along = spacing * (place - 0.5 * (count - 1))
-        aside = 1.05 * size * (row - 0.5 * (rows - 1))
-        x, y = x + along * math.cos(yaw), y + along * math.sin(yaw)
-        z += climb * along
-        group.offsets.append((x - aside * math.sin(yaw), y + aside * math.cos(yaw), z))
-    group.row_m = spacing * (count - 1) + size
-    if group.spacing is not None and is_apart:
-        _keep_apart(group, target, support, group.spacing)
-
-
-def _keep_apart(
-    group: ObjectGroup, target: ObjectGroup, support: Support, spacing: Spacing
-) -> None:
-    """Put the row of a group's copies where distances have it on the support."""
-    place, group.row_m = spacing.place(group.index, target, support)
-    offsets = np.array(group.offsets)
-    offsets[:, :2] += place - offsets[:, :2].mean(axis=0)
-    group.offsets = [point(one) for one in offsets]
