@@ -5,28 +5,18 @@ import math
 import numpy as np
 import pytest
 from tests.scenes.every_row import for_every
+from tests.scenes.staged import place
 
-from texvent_scenes.defaults import complete
-from texvent_scenes.description import to_description
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.protocol import Pose
 from texvent_scenes.models.shapes import bounds
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.rendered_scene import Shape
-from texvent_scenes.spec.scene import Motion, Scene, SceneObject
-from texvent_scenes.staging.placement.object_placement import ObjectPlacer
+from texvent_scenes.spec.scene import Motion, SceneObject
 from texvent_scenes.staging.tracks.turning import axle_of
 
-LEVELS = {"air": 1.5, "water": 0.5, "clear": 0.0}
 TURNED = sorted(nouns_with("flat pattern") | nouns_with("flat picture") | nouns_with("has an axle"))
 ROLLING = sorted(name for name, noun in NOUNS.items() if noun.motion == "roll")
-
-
-def place(one):
-    description = complete(to_description(Scene(objects=(one,))), NOUNS)
-    placer = ObjectPlacer(description, NOUNS, seed=3, duration_s=2.0, level_m=LEVELS)
-    (actor,) = placer.place_all()
-    return actor
 
 
 def list_hubs(model, along):
@@ -42,7 +32,7 @@ def list_hubs(model, along):
 def test_what_turns_about_its_front_or_width_does_so_about_its_hub(row):
     noun, late = row
     motions = (Motion("spin", rate_hz=1.3),)
-    actor = place(SceneObject(noun, motions=((Motion("stand"),) if late else ()) + motions))
+    (actor,) = place(SceneObject(noun, motions=((Motion("stand"),) if late else ()) + motions))
     along = 1 if noun in nouns_with("has an axle") else 0
     hubs = [*list_hubs(actor.model, along)]
     is_round = hubs and max(hubs, key=lambda one: one[0])[0] > 0.35 * actor.model.height
@@ -61,7 +51,7 @@ def test_what_turns_about_its_front_or_width_does_so_about_its_hub(row):
 
 @for_every(ROLLING)
 def test_the_middle_of_what_rolls_goes_straight_on(noun):
-    actor = place(SceneObject(noun, motions=(Motion("roll", "right", speed_m_s=0.5),)))
+    (actor,) = place(SceneObject(noun, motions=(Motion("roll", "right", speed_m_s=0.5),)))
     balls = [(float(np.linalg.norm(part.to_body[:, 0])), part.to_body[:, 3])
              for part in actor.model.parts(Pose(0.0, 0.0, 0.0, "stand"))
              if part.shape is Shape.ELLIPSOID]  # fmt: skip

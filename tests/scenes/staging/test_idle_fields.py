@@ -8,11 +8,9 @@ from typing import get_args
 import numpy as np
 import pytest
 from tests.scenes.every_row import for_every
-from tests.scenes.staged import stage, thing
+from tests.scenes.staged import place, stage, thing
 
 from texvent.errors import ConfigError
-from texvent_scenes.defaults import complete
-from texvent_scenes.description import to_description
 from texvent_scenes.models.nouns import MOTIONS, NOUNS
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.scene_input import describe_scene, read, understand
@@ -28,12 +26,10 @@ from texvent_scenes.spec.scene import (
     Scene,
     SceneObject,
 )
-from texvent_scenes.staging.actors import Actor, lowest_point
+from texvent_scenes.staging.actors import lowest_point
 from texvent_scenes.staging.idle_fields import DIRECTIONS_OF_MOVES, READ_BY_MOVES, list_idle
-from texvent_scenes.staging.placement.object_placement import ObjectPlacer
 from texvent_scenes.staging.tracks.phases import COMING_DOWN
 
-LEVELS = {"air": 1.5, "water": 0.5, "clear": 0.0}
 TRIED = ("car", "box", "checkerboard", "fan", "drone", "ball", "wheel", "boat", "tree")
 """Nouns of every habitat, that go, roll, work, are flat, or stand."""
 VALUES = {"direction": ("left", "clockwise", "to and fro"), "pace": (2.0,), "end_pace": (0.1,),
@@ -45,12 +41,6 @@ ROWS = [
     )
     for value in values
 ][::2]
-
-
-def place(one: SceneObject, *others: SceneObject, duration_s: float = 2.0) -> list[Actor]:
-    description = complete(to_description(Scene(objects=(one, *others))), NOUNS)
-    placer = ObjectPlacer(description, NOUNS, seed=3, duration_s=duration_s, level_m=LEVELS)
-    return placer.place_all()
 
 
 def drawn(one: SceneObject) -> np.ndarray:
@@ -219,8 +209,6 @@ def test_a_motion_that_begins_late_is_not_taken_for_rest(what, start_s):
 def test_the_roads_cross_where_the_scene_says_and_the_report_where_they_do():
     car = SceneObject("car", position_m=(-4, 1), heading_deg=0, motions=(Motion("drive"),))
     scene = Scene(objects=(car,), place=Place("city", crossing_m=(9, 30)))
-    from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
-
     for said in (scene, replace(scene, place=Place("city", road="crossing"))):
         video = ProceduralGenerator(ProceduralConfig(duration=0.2)).generate(said)
         ((x, y, angle),) = video.scene.environment(0.0).road_crossings

@@ -5,26 +5,21 @@ import itertools
 import numpy as np
 import pytest
 from tests.scenes.every_row import for_every
+from tests.scenes.staged import place
 
-from texvent_scenes.defaults import complete
-from texvent_scenes.description import to_description
 from texvent_scenes.models.activities import ANIMAL_ACTIVITIES
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.scene_input import describe_scene
 from texvent_scenes.spec.scene import Motion, Scene, SceneObject
-from texvent_scenes.staging.placement.object_placement import ObjectPlacer
 
-LEVELS = {"air": 1.5, "water": 0.5, "clear": 0.0}
 SWITCHED = [(noun.name, kind) for noun in NOUNS.values() for kind in sorted(noun.acts)
             if ANIMAL_ACTIVITIES[kind].to_state]  # fmt: skip
 
 
-def place(one, duration_s):
-    scene = Scene(objects=(one,))
-    describe_scene(scene, NOUNS)
-    placer = ObjectPlacer(complete(to_description(scene), NOUNS), NOUNS, seed=3,
-                          duration_s=duration_s, level_m=LEVELS)  # fmt: skip
-    return placer.place_all()[0]
+def show(noun, *motions, duration_s=2.0):
+    one = SceneObject(noun, motions=motions)
+    describe_scene(Scene(objects=(one,)), NOUNS)
+    return place(one, duration_s=duration_s)[0]
 
 
 def light(actor, time_s):
@@ -40,9 +35,9 @@ def test_a_state_changes_at_the_time_that_is_stated(row):
     (noun, kind), is_said, start_s, duration_s = row
     act = ANIMAL_ACTIVITIES[kind]
     motions = (Motion(act.from_state),) * is_said + (Motion(kind, start_s=start_s),)
-    actor = place(SceneObject(noun, motions=motions), duration_s)
+    actor = show(noun, *motions, duration_s=duration_s)
     before, after = (
-        light(place(SceneObject(noun, motions=(Motion(state),)), duration_s), 0.5)
+        light(show(noun, Motion(state), duration_s=duration_s), 0.5)
         for state in (act.from_state, act.to_state)
     )
     assert not np.allclose(before, after)
@@ -58,7 +53,7 @@ def test_a_state_lasts_up_to_the_next(row):
     others = [one for name, one in SWITCHED if name == noun and one != kind]
     for other in others:
         motions = (Motion(kind, start_s=start_s), Motion(other, start_s=start_s + 0.5))
-        actor = place(SceneObject(noun, motions=motions), 2.0)
+        actor = show(noun, *motions)
         states = [light(actor, t) for t in (start_s, start_s + 0.499, start_s + 0.5, 1.99)]
         np.testing.assert_array_equal(states[0], states[1])
         np.testing.assert_array_equal(states[2], states[3])
@@ -67,6 +62,6 @@ def test_a_state_lasts_up_to_the_next(row):
 
 def test_without_a_time_a_light_is_seen_before_and_after_it_turns():
     (noun, kind), *_ = SWITCHED
-    actor = place(SceneObject(noun, motions=(Motion(kind),)), 2.0)
+    actor = show(noun, Motion(kind))
     assert not np.allclose(light(actor, 0.0), light(actor, 1.9))
     assert pytest.approx(light(actor, 0.0)) == light(actor, 0.3)
