@@ -1,5 +1,6 @@
 """Scenes staged from objects, for tests of what they show."""
 
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
@@ -60,10 +61,18 @@ def place(*objects: SceneObject, duration_s: float = DURATION_S) -> list[Actor]:
     return placer.place_all()
 
 
+@lru_cache(maxsize=32)
 def stage_text(text: str, seed: int = 0) -> tuple[SceneDescription, ComposedScene]:
     """A sentence as it is understood, and its scene."""
     said = understand(text, NOUNS)
     return said, compose_scene(said, seed=seed, size=SIZE, duration_s=DURATION_S)
+
+
+def moved(scene: ComposedScene, actor: Actor, by_m: Any) -> ComposedScene:
+    """The scene with one of its bodies elsewhere."""
+    track = replace(actor.track, start=tuple(np.add(actor.track.start, by_m)))
+    others = (replace(one, track=track) if one is actor else one for one in scene.actors)
+    return replace(scene, actors=tuple(others))
 
 
 def in_image(scene: ComposedScene, actor: Actor, time_s: float) -> np.ndarray:

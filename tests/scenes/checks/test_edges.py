@@ -4,28 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.scenes.staged import DURATION_S, SIZE
+from tests.scenes.staged import DURATION_S, SIZE, moved, stage_text
 
 from texvent_scenes.checks.edges import find_cut_subject, find_merged, list_covering
-from texvent_scenes.models.nouns import NOUNS
-from texvent_scenes.scene_input import understand
-from texvent_scenes.staging.compose import compose_scene
 
 TIMES_S = [float(one) for one in np.linspace(0.0, DURATION_S, 5)]
-
-
-def staged(text):
-    said = understand(text, NOUNS)
-    return said, compose_scene(said, seed=0, size=SIZE, duration_s=DURATION_S)
-
-
-def moved(scene, index, by_m):
-    """The scene with a copy elsewhere."""
-    one = scene.actors[index]
-    track = replace(one.track, start=tuple(np.add(one.track.start, by_m)))
-    actors = [*scene.actors]
-    actors[index] = replace(one, track=track)
-    return replace(scene, actors=tuple(actors))
 
 
 @pytest.mark.parametrize(
@@ -35,7 +18,7 @@ def moved(scene, index, by_m):
      "the camera follows a cyclist along a road"],
 )  # fmt: skip
 def test_who_a_moving_camera_is_about_is_in_the_middle_or_named(text):
-    said, scene = staged(text)
+    said, scene = stage_text(text)
     cameras = [scene.camera(one) for one in TIMES_S]
     assert [*find_cut_subject(scene, said, cameras, TIMES_S, SIZE)] == []
     aside = 0.5 * scene.camera_path.framing.distance_m / scene.camera_path.framing.focal
@@ -45,21 +28,21 @@ def test_who_a_moving_camera_is_about_is_in_the_middle_or_named(text):
 
 @pytest.mark.parametrize("noun", ["sheep", "cups", "cars"])
 def test_copies_of_which_one_stands_before_the_other_are_counted_as_they_are_seen(noun):
-    said, scene = staged(f"two {noun} stand")
+    said, scene = stage_text(f"two {noun} stand")
     cameras = [scene.camera(one) for one in TIMES_S]
     assert [*find_merged(scene, said, cameras, TIMES_S, SIZE)] == []
     first, second = (one.track.start for one in scene.actors)
     away = 0.01 * cameras[0].rotation[2]
-    merged = moved(scene, 1, np.subtract(first, second) + away)
+    merged = moved(scene, scene.actors[1], np.subtract(first, second) + away)
     assert [*find_merged(merged, said, cameras, TIMES_S, SIZE)] == [(0, 1)]
 
 
 @pytest.mark.parametrize(("points", "is_told"), [(60, False), (300, True)])
 def test_what_stands_before_the_subject_and_takes_much_of_the_image_is_told(points, is_told):
-    said, scene = staged("a cat and a wardrobe")
+    said, scene = stage_text("a cat and a wardrobe")
     camera = scene.camera(0.0)
     ahead = camera.position + 0.4 * scene.camera_path.framing.distance_m * camera.rotation[2]
-    near = moved(scene, 1, ahead - scene.actors[1].middle(0.0))
+    near = moved(scene, scene.actors[1], ahead - scene.actors[1].middle(0.0))
     seen = {1: [points] * 5, 2: [points] * 5}
     told = [*list_covering(near, said, seen, 1000, TIMES_S)]
     assert told == (["the wardrobe covers 30 % of the picture"] if is_told else [])

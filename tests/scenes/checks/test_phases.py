@@ -4,8 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.scenes.checks.test_placement import SIZE, staged
-from tests.scenes.staged import stage
+from tests.scenes.staged import SIZE, stage, stage_text
 from tests.scenes.test_short_prompts import report
 
 from texvent_scenes.checks.limbs import find_tiny
@@ -40,7 +39,7 @@ def test_what_flashes_is_hidden_by_nothing():
 
 @pytest.mark.parametrize(("share", "lost"), [(1.0, []), (0.01, ["wave"])])
 def test_an_act_whose_limbs_hardly_move_in_the_image_is_said(share, lost):
-    said, scene = staged("a woman waves in the street")
+    said, scene = stage_text("a woman waves in the street")
     times = [0.0, 0.5, 1.0]
     cameras = [replace(each, focal=share * each.focal) for each in map(scene.camera, times)]
     found = find_tiny(said, scene.actors, cameras, times, SIZE)

@@ -30,7 +30,8 @@ STREETS = {
     "parked": (thing("car", ("stand",)), thing("bench", ("stand",)), thing("man", ("wave",)),
                thing("car", ("drive", "left"))),
     "traffic": (thing("car", ("drive",), count=2), thing("truck", ("drive",))),
-    "standing": (thing("taxi", ("stand",)), thing("fire hydrant", ("stand",))),
+    "standing": (thing("taxi", ("stand",)), thing("fire hydrant", ("stand",)),
+                 thing("barrier", ("stand",)), thing("cow", ("stand",)), thing("sign", ("stand",))),
 }  # fmt: skip
 
 
@@ -117,6 +118,7 @@ def test_what_stands_on_land_is_not_in_the_water(place):
         half_m = half_m if place == "river" else 0.0
         for one in scene.actors:
             assert road.across(one.corners(0.0)[:, :2]).max() < -half_m
+        assert road.across(scene.still.to_world[:, :2, 3]).max() < 1.0 - half_m
 
 
 SMALL = sorted(nouns_with("in hand or on something") & NOUNS.keys())
