@@ -250,15 +250,6 @@ def test_what_approaches_the_camera_comes_nearer(text):
     assert not read(text, list_nouns()).scene.camera.moves
 
 
-@pytest.mark.parametrize(
-    "text", ["a microwave door opens", "a woman closes the fridge door", "the oven door is open"]
-)
-def test_the_door_of_a_thing_is_what_opens_of_it(text):
-    nouns = [one.noun for one in read(text, list_nouns()).scene.objects]
-    assert "door" not in nouns
-    assert is_right(text)
-
-
 def test_of_things_without_a_number_most_in_view_are_enough():
     assert _are_enough("tree (1 of 3)", ["trees"])
     assert not _are_enough("tree (1 of 3)", ["trees", "three"])

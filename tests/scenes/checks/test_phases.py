@@ -13,18 +13,6 @@ from texvent_scenes.description import SceneDescription
 from texvent_scenes.spec.scene import Motion, SceneObject
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "a horse is ridden by a girl, a dog running behind them",
-        "a man walks, a dog walking behind him",
-    ],
-)
-def test_what_goes_behind_what_goes_follows_it(text):
-    assert any('"follow"' in line for line in report(text).scene)
-    assert "behind" in report(text).shown
-
-
 def test_a_cyclist_has_one_bicycle():
     assert sum("bicycle" in line for line in report("a cyclist pushes his bicycle").scene) == 0
     said = report("a cyclist falls off his bike")

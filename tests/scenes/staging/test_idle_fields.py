@@ -350,7 +350,7 @@ def test_a_bounce_after_a_fall_has_the_time_of_the_landing_or_none(row):
         check(landing_s + 0.2)
 
 
-@for_every([(kind, noun, name, value) for kind, noun, name, value in ROWS])
+@for_every(ROWS[::5])
 def test_an_error_of_a_field_does_not_name_its_own_motion_as_one_that_reads_it(row):
     kind, noun, name, value = row
     for before in ((), (Motion("stand"),), (Motion("fall"),)):
