@@ -2,6 +2,7 @@
 
 import itertools
 import math
+from contextlib import nullcontext
 from dataclasses import replace
 from typing import get_args
 
@@ -160,29 +161,6 @@ def test_a_camera_move_is_as_fast_as_it_says_while_it_lasts(kind):
         np.testing.assert_allclose(after.position, camera(1.9).position)
 
 
-@pytest.mark.parametrize(
-    ("fields", "path"),
-    [
-        ({"place": Place("kitchen", clouds=0.5)}, "place.clouds"),
-        ({"place": Place("beach", road="crossing")}, "place.road"),
-        ({"place": Place("grass", crossing_m=(1, 1))}, "place.crossing_m"),
-        ({"place": Place("road", wave_height=2.0)}, "place.wave_height"),
-        ({"light": Light(wave="strobe")}, "light.wave"),
-        ({"objects": (SceneObject("box", blink_hz=3.0),)}, "objects[0].blink_hz"),
-        ({"objects": (SceneObject("car", heading_deg=9, motions=(Motion("drive", "left"),)),)},
-         "objects[0].motions[0].direction"),
-        ({"objects": (SceneObject("car", placement="left", position_m=(0, 0)),)},
-         "objects[0].placement"),
-        ({"objects": (SceneObject("car", motions=(Motion("wave"),)),)},
-         "objects[0].motions[0].kind"),
-    ],
-)  # fmt: skip
-def test_a_field_without_effect_is_named_with_what_would_have_one(fields, path):
-    with pytest.raises(ConfigError) as caught:
-        describe_scene(Scene(**fields), NOUNS)
-    assert str(caught.value).startswith(f"{path} has no effect: ")
-
-
 def test_words_whose_fields_change_nothing_are_not_shown():
     words = understand("a red car drives left quickly at 20 km/h", NOUNS).words
     assert "quickly" not in words.shown
@@ -307,7 +285,19 @@ def test_a_motion_that_is_done_already_is_told_from_one_that_is_never_done(noun,
         ProceduralGenerator(ProceduralConfig(duration=2.0)).report(scene)
 
 
-USUAL = [
+SAID = [
+    ({"place": Place("kitchen", clouds=0.5)}, r"^place\.clouds has no effect: "),
+    ({"place": Place("beach", road="crossing")}, r"^place\.road has no effect: "),
+    ({"place": Place("grass", crossing_m=(1, 1))}, r"^place\.crossing_m has no effect: "),
+    ({"place": Place("road", wave_height=2.0)}, r"^place\.wave_height has no effect: "),
+    ({"light": Light(wave="strobe")}, r"^light\.wave has no effect: "),
+    ({"objects": (SceneObject("box", blink_hz=3.0),)}, r"^objects\[0\]\.blink_hz has no effect: "),
+    ({"objects": (SceneObject("car", heading_deg=9, motions=(Motion("drive", "left"),)),)},
+     r"^objects\[0\]\.motions\[0\]\.direction has no effect: "),
+    ({"objects": (SceneObject("car", placement="left", position_m=(0, 0)),)},
+     r"^objects\[0\]\.placement has no effect: "),
+    ({"objects": (SceneObject("car", motions=(Motion("wave"),)),)},
+     r"^objects\[0\]\.motions\[0\]\.kind has no effect: "),
     ({"place": Place("road", weather="rain", is_wet=True)}, None),
     ({"place": Place("road", weather="rain", is_wet=False)}, "rain wets the ground; leave"),
     ({"place": Place("grass", is_wet=False)}, None),
@@ -324,12 +314,9 @@ USUAL = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("fields", "why"), USUAL)
-def test_what_is_so_anyway_is_accepted_and_what_contradicts_is_refused(fields, why):
-    if why is None:
-        describe_scene(Scene(**fields), NOUNS)
-        return
-    with pytest.raises(ConfigError, match=why):
+@pytest.mark.parametrize(("fields", "why"), SAID)
+def test_what_is_so_anyway_is_accepted_and_what_has_no_effect_is_named(fields, why):
+    with nullcontext() if why is None else pytest.raises(ConfigError, match=why):
         describe_scene(Scene(**fields), NOUNS)
 
 
