@@ -1,5 +1,6 @@
 """Scenes staged from objects, for tests of what they show."""
 
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
@@ -7,14 +8,19 @@ import numpy as np
 
 from texvent.camera import project
 from texvent.sensor import SensorSize
-from texvent_scenes.description import IndexedRelation, SceneDescription
-from texvent_scenes.spec.scene import Camera, Effect, Light, Motion, Place, SceneObject
+from texvent_scenes.defaults import complete
+from texvent_scenes.description import IndexedRelation, SceneDescription, to_description
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.scene_input import understand
+from texvent_scenes.spec.scene import Camera, Effect, Light, Motion, Place, Scene, SceneObject
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.compose import ComposedScene, compose_scene
+from texvent_scenes.staging.placement.object_placement import ObjectPlacer
 from texvent_scenes.staging.surroundings.environment import RoadLine
 
 SIZE = SensorSize(173, 130)
 DURATION_S = 2.0
+LEVELS_M = {"air": 1.5, "water": 0.5, "clear": 0.0}
 
 
 def thing(noun: str, *motions: tuple[str, ...], **fields: Any) -> SceneObject:
@@ -46,6 +52,27 @@ def stage(
         place=Place("grass", is_empty=True) if place == "" else Place(place),
     )
     return compose_scene(description, seed=seed, size=SIZE, duration_s=duration_s)
+
+
+def place(*objects: SceneObject, duration_s: float = DURATION_S) -> list[Actor]:
+    """Bodies of a scene file's objects, without a camera and surroundings."""
+    said = complete(to_description(Scene(objects=objects)), NOUNS)
+    placer = ObjectPlacer(said, NOUNS, seed=3, duration_s=duration_s, level_m=LEVELS_M)
+    return placer.place_all()
+
+
+@lru_cache(maxsize=32)
+def stage_text(text: str, seed: int = 0) -> tuple[SceneDescription, ComposedScene]:
+    """A sentence as it is understood, and its scene."""
+    said = understand(text, NOUNS)
+    return said, compose_scene(said, seed=seed, size=SIZE, duration_s=DURATION_S)
+
+
+def moved(scene: ComposedScene, actor: Actor, by_m: Any) -> ComposedScene:
+    """The scene with one of its bodies elsewhere."""
+    track = replace(actor.track, start=tuple(np.add(actor.track.start, by_m)))
+    others = (replace(one, track=track) if one is actor else one for one in scene.actors)
+    return replace(scene, actors=tuple(others))
 
 
 def in_image(scene: ComposedScene, actor: Actor, time_s: float) -> np.ndarray:

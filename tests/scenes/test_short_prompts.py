@@ -183,27 +183,18 @@ def test_another_platform_is_one_to_land_on():
 
 
 @pytest.mark.parametrize(
-    "text",
-    ["a cup falls from a table", "a cat jumps from a wall", "a ball falls from a box"],
-)
-def test_what_falls_or_jumps_from_something_is_on_it_at_first(text):
-    one, other = staged(text)[0].actors[:2]
-    top = other.corners(0.0)[:, 2].max()
-    assert one.lowest_m(0.0) > 0.7 * top
-    assert one.lowest_m(2.0) < 0.2 * top
-    assert is_right(text)
-
-
-@pytest.mark.parametrize(
     ("text", "speed"),
     [("ego view driving on a highway at 100 km/h", 100 / 3.6),
      ("dashcam footage driving through a city at 10 m/s", 10.0),
-     ("egocentric view walking through a forest at 1 m/s", 1.0)],
+     ("egocentric view walking through a forest at 1 m/s", 1.0),
+     ("dashcam view in the rain at 50 km/h", 50 / 3.6), ("ego motion at 3 m/s in a forest", 3.0),
+     ("driver view at night at 72 km/h", 20.0)],
 )  # fmt: skip
 def test_a_view_that_travels_goes_once_and_as_fast_as_is_said(text, speed):
     camera = staged(text)[0].camera
     way = camera(1.1).position - camera(0.9).position
     np.testing.assert_allclose(np.linalg.norm(way), 0.2 * speed, rtol=0.02)
+    assert is_right(text)
 
 
 @pytest.mark.parametrize(
@@ -234,18 +225,6 @@ def test_patterns_and_lamps_blink_and_nothing_else(text, is_so):
     assert len(shares) == 1 + is_so
 
 
-@pytest.mark.parametrize(
-    ("text", "speed"),
-    [("dashcam view in the rain at 50 km/h", 50 / 3.6), ("ego motion at 3 m/s in a forest", 3.0),
-     ("driver view at night at 72 km/h", 20.0)],
-)  # fmt: skip
-def test_a_speed_without_a_body_is_that_of_the_view(text, speed):
-    camera = staged(text)[0].camera
-    way = camera(1.1).position - camera(0.9).position
-    np.testing.assert_allclose(np.linalg.norm(way), 0.2 * speed, rtol=0.02)
-    assert is_right(text)
-
-
 def test_a_camera_goes_through_what_has_a_way_through_alone():
     said = "camera dollies forward through a doorway"
     scene = staged(said)[0]
@@ -254,22 +233,6 @@ def test_a_camera_goes_through_what_has_a_way_through_alone():
     assert ahead[0] @ ahead[1] < 0.0
     for text in ("the camera moves through a car", "the camera flies through a tunnel"):
         assert "through" in report(text).not_understood
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        "a black disc moving up and down on a white background at 2 Hz",
-        "a square moves up and down",
-        "a bar slides up and down at 1 Hz",
-    ],
-)
-def test_a_pattern_that_moves_up_and_down_does_so_in_the_picture(text):
-    one = staged(text)[0].actors[0]
-    places = np.array([one.middle(time_s) for time_s in np.linspace(0.0, 2.0, 41)])
-    assert np.ptp(places[:, 2]) > 0.3 * one.model.height
-    assert np.ptp(places[:, :2], axis=0).max() < 1e-6
-    assert is_right(text)
 
 
 @pytest.mark.parametrize(
@@ -285,25 +248,6 @@ def test_what_approaches_the_camera_comes_nearer(text):
     assert away[1] < away[0]
     assert scene.actors[0].track.at(1.0).speed_m_s > 0.5
     assert not read(text, list_nouns()).scene.camera.moves
-
-
-@pytest.mark.parametrize(
-    ("text", "height_m"),
-    [("drone hovering 2 m above the ground", 2.0), ("a bird flies 5 metres above the sea", 5.0),
-     ("a helicopter hovers 20 m above a field", 20.0)],
-)  # fmt: skip
-def test_what_is_in_the_air_begins_at_the_height_that_is_said(text, height_m):
-    assert staged(text)[0].actors[0].lowest_m(0.0) == pytest.approx(height_m, abs=0.02 * height_m)
-    assert is_right(text)
-
-
-@pytest.mark.parametrize(
-    "text", ["a microwave door opens", "a woman closes the fridge door", "the oven door is open"]
-)
-def test_the_door_of_a_thing_is_what_opens_of_it(text):
-    nouns = [one.noun for one in read(text, list_nouns()).scene.objects]
-    assert "door" not in nouns
-    assert is_right(text)
 
 
 def test_of_things_without_a_number_most_in_view_are_enough():
@@ -355,10 +299,14 @@ def test_a_mark_makes_a_disc_or_a_fan_one_that_turns_visibly(text, noun):
     ("text", "activity"),
     [("a pancake being flipped in a pan", "toss"), ("wood being chopped", "chop wood"),
      ("dough being kneaded on a table", "knead"), ("a hammer striking a nail", "hammer"),
-     ("a pen writing on white paper", "write"), ("a broom sweeping the floor", "sweep")],
+     ("a pen writing on white paper", "write"), ("a broom sweeping the floor", "sweep"),
+     ("slicing a tomato", "slice"), ("chopping carrots", "slice"), ("petting a cat", "stroke low"),
+     ("hands kneading dough", "knead"), ("hands shuffling cards", "shuffle cards"),
+     ("a hand slices bread", "slice")],
 )  # fmt: skip
 def test_an_act_that_only_a_person_does_brings_one(text, activity):
     actors = staged(text)[0].actors
+    assert actors[0].noun.name == "person"
     assert actors[0].track.at(0.0).activity == activity
     assert is_right(text)
 

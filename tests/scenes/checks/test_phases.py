@@ -1,29 +1,20 @@
 """What a clip shows of several acts and of a place: each check in unrelated sentences."""
 
+import itertools
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.scenes.checks.test_placement import SIZE, staged
-from tests.scenes.staged import stage
+from tests.scenes.checks.test_pictures import SMALL
+from tests.scenes.every_row import for_every
+from tests.scenes.staged import SIZE, in_image, stage, stage_text, thing
 from tests.scenes.test_short_prompts import report
 
 from texvent_scenes.checks.limbs import find_tiny
 from texvent_scenes.checks.phases import find_unhurried
 from texvent_scenes.description import SceneDescription
+from texvent_scenes.models.places import PLACES
 from texvent_scenes.spec.scene import Motion, SceneObject
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        "a horse is ridden by a girl, a dog running behind them",
-        "a man walks, a dog walking behind him",
-    ],
-)
-def test_what_goes_behind_what_goes_follows_it(text):
-    assert any('"follow"' in line for line in report(text).scene)
-    assert "behind" in report(text).shown
 
 
 def test_a_cyclist_has_one_bicycle():
@@ -40,7 +31,7 @@ def test_what_flashes_is_hidden_by_nothing():
 
 @pytest.mark.parametrize(("share", "lost"), [(1.0, []), (0.01, ["wave"])])
 def test_an_act_whose_limbs_hardly_move_in_the_image_is_said(share, lost):
-    said, scene = staged("a woman waves in the street")
+    said, scene = stage_text("a woman waves in the street")
     times = [0.0, 0.5, 1.0]
     cameras = [replace(each, focal=share * each.focal) for each in map(scene.camera, times)]
     found = find_tiny(said, scene.actors, cameras, times, SIZE)
@@ -55,3 +46,42 @@ def test_haste_is_shown_of_who_has_it(noun, kind, pace):
         words = SceneDescription(objects=(SceneObject(noun, motions=(Motion(kind, pace=said),)),))
         is_slower = bool([*find_unhurried(words, actors, np.linspace(0.0, 2.0, 9))])
         assert is_slower == (pace < 0.75 * said)
+
+
+@pytest.mark.parametrize(
+    ("noun", "target"), [("dog", "tree"), ("child", "van"), ("ball", "box"), ("cat", "sofa")]
+)
+def test_who_comes_from_behind_a_thing_is_hidden_first_and_then_clear_of_it(noun, target):
+    scene = stage(
+        thing(noun, ("move",)), thing(target, ("stand",)), relations=(("from behind", 0, 1),)
+    )
+    one, other = scene.actors
+    first, last = (in_image(scene, one, at) for at in (0.0, 2.0))
+    cover = in_image(scene, other, 0.0)
+    low, high = cover[:, 0].min(), cover[:, 0].max()
+    assert low <= first[:, 0].mean() <= high
+    gone = last[:, 0].mean() - first[:, 0].mean()
+    assert abs(gone) > 0.5 * np.ptp(first[:, 0])
+
+
+@pytest.mark.parametrize(
+    ("text", "means"),
+    [
+        ("first person view of a drone flying through a forest", "fly"),
+        ("first-person view of a man walking through a market", "walk"),
+        ("pov of a car driving through a city", "drive"),
+    ],
+)
+def test_a_first_person_view_goes_with_the_camera(text, means):
+    said = report(text)
+    assert any(f'means = "{means}"' in one for one in said.scene)
+    assert "objects" not in " ".join(said.scene)
+
+
+ROOMS = [name for name, one in PLACES.items() if one.is_room and name not in ("indoor", *SMALL)]
+
+
+@for_every(zip(ROOMS, itertools.cycle(("walking", "flying"))))
+def test_a_camera_that_goes_through_a_room_sees_its_furniture(row):
+    name, how = row
+    assert not report(f"{how} through a {name}").not_shown

@@ -1,17 +1,17 @@
-"""Places and effects that a small picture shows, and those that the report names as not shown."""
+"""Places, effects and subjects at the edge: what a small picture shows, and what is named."""
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from tests.scenes.every_row import for_every
-from tests.scenes.staged import DURATION_S, SIZE
+from tests.scenes.staged import DURATION_S, SIZE, moved, stage_text
 
+from texvent_scenes.checks.edges import find_cut_subject, find_merged, list_covering
 from texvent_scenes.checks.pictures import find_unshown
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.effects import EFFECTS
-from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.places import PLACES
-from texvent_scenes.scene_input import understand
 from texvent_scenes.spec.scene import Effect, Place
 from texvent_scenes.staging.actors import assemble
 from texvent_scenes.staging.compose import compose_scene
@@ -24,18 +24,13 @@ SMALL = ("bowling alley",)
 """Rooms told by their smallest things alone: pins."""
 
 
-def staged(text):
-    said = understand(text, NOUNS)
-    return said, compose_scene(said, seed=0, size=SIZE, duration_s=DURATION_S)
-
-
 def lost(said, scene):
     return [one.kind for one in find_unshown(scene, said, TIMES_S)]
 
 
 @for_every(ROOMS)
 def test_a_room_is_shown_with_its_furniture_and_not_by_bare_walls(room):
-    said, scene = staged(f"a man stands in a {PLACES[room].names[0]}")
+    said, scene = stage_text(f"a man stands in a {PLACES[room].names[0]}")
     assert said.place.name == room
     assert ("place" in lost(said, scene)) == (room in SMALL)
     if room not in TELLING:
@@ -48,7 +43,7 @@ BARE = ("bedroom", "factory", *SMALL)
 
 @for_every([one for one in ROOMS if one not in BARE])
 def test_a_camera_near_a_small_thing_sees_what_stands_at_the_wall_of_a_room_that_is_said(room):
-    said, scene = staged(f"close-up of a cat in a {PLACES[room].names[0]}")
+    said, scene = stage_text(f"close-up of a cat in a {PLACES[room].names[0]}")
     assert "place" not in lost(said, scene)
 
 
@@ -65,7 +60,7 @@ def test_an_effect_by_itself_is_seen(kind):
      "a truck drives along a dirt road and kicks up dust", "a man walks in the rain"],
 )  # fmt: skip
 def test_soft_things_are_in_view_and_seen_and_faint_ones_are_named(text):
-    said, scene = staged(text)
+    said, scene = stage_text(text)
     assert not {"effect", "weather"} & {*lost(said, scene)}
     faint = tuple(
         replace(one, style=replace(one.style, thickness=(0.02, 0.0)))
@@ -73,3 +68,43 @@ def test_soft_things_are_in_view_and_seen_and_faint_ones_are_named(text):
     )
     scene = replace(scene, particles=replace(scene.particles, effects=faint))
     assert {"effect", "weather"} & {*lost(said, scene)}
+
+
+FIVE_S = [float(one) for one in np.linspace(0.0, DURATION_S, 5)]
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["a man walks on a street as the camera walks backward in front of him",
+     "a dog runs along a beach while the camera moves backward in front of it",
+     "the camera follows a cyclist along a road"],
+)  # fmt: skip
+def test_who_a_moving_camera_is_about_is_in_the_middle_or_named(text):
+    said, scene = stage_text(text)
+    cameras = [scene.camera(one) for one in FIVE_S]
+    assert [*find_cut_subject(scene, said, cameras, FIVE_S, SIZE)] == []
+    aside = 0.5 * scene.camera_path.framing.distance_m / scene.camera_path.framing.focal
+    beside = [replace(one, position=one.position + aside * one.rotation[0]) for one in cameras]
+    assert [*find_cut_subject(scene, said, beside, FIVE_S, SIZE)] == [0]
+
+
+@pytest.mark.parametrize("noun", ["sheep", "cups", "cars"])
+def test_copies_of_which_one_stands_before_the_other_are_counted_as_they_are_seen(noun):
+    said, scene = stage_text(f"two {noun} stand")
+    cameras = [scene.camera(one) for one in FIVE_S]
+    assert [*find_merged(scene, said, cameras, FIVE_S, SIZE)] == []
+    first, second = (one.track.start for one in scene.actors)
+    away = 0.01 * cameras[0].rotation[2]
+    merged = moved(scene, scene.actors[1], np.subtract(first, second) + away)
+    assert [*find_merged(merged, said, cameras, FIVE_S, SIZE)] == [(0, 1)]
+
+
+@pytest.mark.parametrize(("points", "is_told"), [(60, False), (300, True)])
+def test_what_stands_before_the_subject_and_takes_much_of_the_image_is_told(points, is_told):
+    said, scene = stage_text("a cat and a wardrobe")
+    camera = scene.camera(0.0)
+    ahead = camera.position + 0.4 * scene.camera_path.framing.distance_m * camera.rotation[2]
+    near = moved(scene, scene.actors[1], ahead - scene.actors[1].middle(0.0))
+    seen = {1: [points] * 5, 2: [points] * 5}
+    told = [*list_covering(near, said, seen, 1000, FIVE_S)]
+    assert told == (["the wardrobe covers 30 % of the picture"] if is_told else [])

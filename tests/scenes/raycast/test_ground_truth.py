@@ -12,6 +12,7 @@ from texvent.camera import PosedCamera, camera_rays
 from texvent.sensor import SensorSize
 from texvent_scenes.raycast.ground_truth import _hidden, ground_truth
 from texvent_scenes.raycast.render import world_at
+from texvent_scenes.raycast.trace import hit_shape
 from texvent_scenes.rendered_scene import Ground, Shape
 
 from ..hand_scenes import HandScene, MovingShape, look_at, moving, showcase, still
@@ -125,3 +126,31 @@ def test_boxes_hold_the_visible_pixels_and_say_how_much_is_visible():
     assert sign.visibility == pytest.approx(0.5, abs=0.03)
     assert wall.visibility == 1.0
     assert (truth.instance[sign.y0 : sign.y1, sign.x0 : sign.x1] == 3).all()
+
+
+UNIT_SHAPES = [shape for shape in Shape if shape is not Shape.MESH]
+
+
+def rays(seed: int, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Rays from around the unit shapes towards points in and beside them."""
+    generator = np.random.default_rng(seed)
+    origins = generator.normal(size=(count, 3)) * 3.0
+    targets = generator.uniform(-1.6, 1.6, size=(count, 3))
+    return origins, (targets - origins) * generator.uniform(0.1, 2.0, size=(count, 1))
+
+
+@pytest.mark.parametrize("shape", UNIT_SHAPES)
+def test_the_kernel_equals_the_reference_on_random_rays(shape):
+    origins, directions = rays(int(shape), 3000)
+    expected = hit_shape_reference(shape, origins, directions)
+    found = np.array(
+        [
+            hit_shape(int(shape), tuple(origin), tuple(direction), 0.0)[0]
+            for origin, direction in zip(origins, directions, strict=True)
+        ]
+    )
+    both = np.isfinite(found) & np.isfinite(expected)
+    assert both.sum() > 300
+    np.testing.assert_allclose(found[both], expected[both], rtol=1e-8, atol=1e-9)
+    # Rays that only graze the shape may go either way; a grazing ray stays inside hardly any time.
+    assert np.mean(np.isfinite(found) != np.isfinite(expected)) < 1e-3

@@ -218,16 +218,24 @@ def test_a_vehicle_ahead_keeps_its_distance_and_oncoming_ones_pass():
     assert gaps[0, 1] - gaps[2, 1] > 20.0
 
 
-@pytest.mark.parametrize(
-    ("noun", "motion", "shot"),
-    [
-        ("bullet", Motion("fly", "left", speed_m_s=200), ()),
-        ("arrow", Motion("rise", speed_m_s=100), ()),
-        ("car", Motion("drive", "left", speed_m_s=90), (CameraMove("tilt", "up", pace=0.01),)),
-    ],
-)
-def test_who_crosses_the_view_is_in_it_for_as_long_as_is_said(noun, motion, shot):
-    staged = stage(SceneObject(noun, motions=(motion,)), camera=Camera(shot))
+STILL, TILT = (CameraMove("static"),), (CameraMove("tilt", "up", pace=0.01),)
+BIRD = ("bird", Motion("fly", "right"))
+PASSAGES = [
+    ("bullet", Motion("fly", "left", speed_m_s=200), (), ()),
+    ("arrow", Motion("rise", speed_m_s=100), (), ()),
+    ("car", Motion("drive", "left", speed_m_s=90), TILT, ()),
+    (*BIRD, STILL, ()), (*BIRD, (), (thing("tree", ("stand",)),)),
+    (*BIRD, (), (thing("bird", ("fly", "left")),)),
+]  # fmt: skip
+"""Who is too fast for the camera, or goes where it may not go along: by a landmark, both ways."""
+
+
+@pytest.mark.parametrize(("noun", "motion", "shot", "others"), PASSAGES)
+def test_who_crosses_the_view_is_in_it_for_as_long_as_is_said(noun, motion, shot, others):
+    passed = (("past", 0, 1),) if [one.noun for one in others] == ["tree"] else ()
+    mover = SceneObject(noun, motions=(motion,))
+    staged = stage(mover, *others, relations=passed, camera=Camera(shot))
+    np.testing.assert_array_equal(staged.camera(0.0).position, staged.camera(2.0).position)
     (note,) = staged.camera_path.notes
     lasts_s, from_s = map(float, re.findall(r"[\d.]+(?= s\b)", note))
     times = 1.0 + np.linspace(-2.0, 2.0, 2001) * min(lasts_s, 0.5)

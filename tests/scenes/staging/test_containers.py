@@ -1,12 +1,11 @@
 """What is in something fits, lies between its sides and below its rim, or is not shown."""
 
 import itertools
-from dataclasses import replace
 
 import numpy as np
 import pytest
 from tests.scenes.every_row import for_every
-from tests.scenes.staged import DURATION_S, SIZE, stage, thing
+from tests.scenes.staged import DURATION_S, SIZE, moved, stage, stage_text, thing
 
 from texvent_scenes.checks.body_boxes import body_of
 from texvent_scenes.checks.in_view import find_unseen
@@ -14,22 +13,15 @@ from texvent_scenes.checks.relations import find_violations
 from texvent_scenes.models.anchors import find_rim, has_rim
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
-from texvent_scenes.scene_input import understand
-from texvent_scenes.staging.compose import compose_scene
 from texvent_scenes.staging.placement.rims import fits
 
 TIMES_S = np.linspace(0.0, DURATION_S, 7)
 
 
-def staged(text):
-    said = understand(text, NOUNS)
-    return said, compose_scene(said, seed=0, size=SIZE, duration_s=DURATION_S)
-
-
-def lost_relations(said, scene, actors=None):
+def lost_relations(said, scene):
     cameras = [scene.camera(time) for time in TIMES_S]
     copies = [
-        [body_of(one, cameras, TIMES_S) for one in actors or scene.actors if one.object_index == n]
+        [body_of(one, cameras, TIMES_S) for one in scene.actors if one.object_index == n]
         for n in range(len(said.objects))
     ]
     return [one.value for one in find_violations(said, copies) if one.kind == "relation"]
@@ -42,7 +34,7 @@ def lost_relations(said, scene, actors=None):
      "a hamster runs in a cage", "a parrot sits in a cage"],
 )  # fmt: skip
 def test_what_is_in_a_container_is_between_its_sides_and_below_its_rim_all_along(text):
-    said, scene = staged(text)
+    said, scene = stage_text(text)
     assert lost_relations(said, scene) == []
     *things, kept = scene.actors
     for one in things:
@@ -56,29 +48,25 @@ def test_what_is_in_a_container_is_between_its_sides_and_below_its_rim_all_along
 
 @pytest.mark.parametrize("text", ["two apples in a bowl", "a cat in a box", "a dog in a cage"])
 def test_a_thing_that_is_lifted_out_of_its_container_is_not_in_it(text):
-    said, scene = staged(text)
-    kept = scene.actors[-1]
-    lift = 1.01 * kept.corners(0.0)[:, 2].max()
-    lifted = [
-        one if one is kept
-        else replace(one, track=replace(one.track, start=np.add(one.track.start, (0, 0, lift))))
-        for one in scene.actors
-    ]  # fmt: skip
-    assert lost_relations(said, scene, lifted) == ["in"]
+    said, scene = stage_text(text)
+    *things, kept = scene.actors
+    for one in things:
+        scene = moved(scene, one, (0.0, 0.0, 1.01 * kept.corners(0.0)[:, 2].max()))
+    assert lost_relations(said, scene) == ["in"]
 
 
 @pytest.mark.parametrize(
     "text", ["an apple in a suitcase", "a cat in a barrel", "a fish in a bucket"]
 )
 def test_what_cannot_be_seen_in_its_container_is_not_shown(text):
-    said, scene = staged(text)
+    said, scene = stage_text(text)
     seen = find_unseen(scene, said, SIZE, DURATION_S)
     assert ("relation", "in") in {(one.kind, one.value) for one in seen.violations}
 
 
 @pytest.mark.parametrize("text", ["a cat in a basket", "a fish in a bowl", "an apple in a glass"])
 def test_a_size_that_makes_something_fit_is_told(text):
-    assert any("of its usual size" in note for note in staged(text)[1].notes)
+    assert any("of its usual size" in note for note in stage_text(text)[1].notes)
 
 
 def test_containers_are_nouns_and_what_is_lidded_or_clear_is_one():

@@ -5,16 +5,12 @@ import itertools
 import numpy as np
 import pytest
 from tests.scenes.every_row import for_every
+from tests.scenes.staged import place
 
 from texvent.errors import ConfigError
-from texvent_scenes.defaults import complete
-from texvent_scenes.description import to_description
-from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.spec.data import SPACED
-from texvent_scenes.spec.scene import Motion, Relation, Scene, SceneObject
-from texvent_scenes.staging.placement.object_placement import ObjectPlacer
+from texvent_scenes.spec.scene import Motion, Relation, SceneObject
 
-LEVELS = {"air": 1.5, "water": 0.5, "clear": 0.0}
 WAYS = {"left of": (-1, 0), "right of": (1, 0), "beside": (1, 0), "front": (0, -1),
         "behind": (0, 1)}  # fmt: skip
 SUPPORTS = [("table", "mug", "bottle"), ("workbench", "led", "cup"), ("bench", "man", "woman"),
@@ -22,10 +18,9 @@ SUPPORTS = [("table", "mug", "bottle"), ("workbench", "led", "cup"), ("bench", "
             ("sofa", "cat", "pillow")]  # fmt: skip
 
 
-def place(*objects, duration_s=2.0, seed=3):
-    description = complete(to_description(Scene(objects=objects)), NOUNS)
-    placer = ObjectPlacer(description, NOUNS, seed=seed, duration_s=duration_s, level_m=LEVELS)
-    return {description.objects[one.object_index].id: one for one in placer.place_all()}
+def place_by_id(*objects):
+    names = [one.id or one.noun for one in objects]
+    return {names[one.object_index]: one for one in place(*objects)}
 
 
 def put(support, first, second, relation, distance_m, *, is_turned=False, order=(0, 1, 2)):
@@ -41,7 +36,7 @@ def put(support, first, second, relation, distance_m, *, is_turned=False, order=
 def try_to_place(*objects):
     """The actors, or the text of the refusal."""
     try:
-        return place(*objects), ""
+        return place_by_id(*objects), ""
     except ConfigError as error:
         return {}, str(error)
 
@@ -97,7 +92,7 @@ def test_who_stands_beside_what_is_on_a_table_is_as_far_from_it_as_said(row):
         SceneObject("man", id="other", motions=(Motion("stand"),),
                     relations=(Relation(relation, ("one",), 1.8),)),
     ]  # fmt: skip
-    placed = place(*(objects[n] for n in order))
+    placed = place_by_id(*(objects[n] for n in order))
     first, second = (placed[one].track.at(1.0).position for one in ("one", "other"))
     off = np.subtract(second, first)[:2]
     np.testing.assert_allclose(off, 1.8 * np.array(WAYS[relation]), atol=1e-6)

@@ -280,12 +280,6 @@ def test_a_grating_drifts_where_it_is_told_to(said, sign):
     np.testing.assert_allclose(drift, sign * 0.0216 * size, rtol=1e-6)
 
 
-def test_a_flat_pattern_turns_clockwise_for_the_viewer():
-    path = stage(thing("grating", ("spin", "clockwise")), place=None).actors[0].track
-    up = path.at(0.2).to_world()[:, 2] - path.at(0.0).to_world()[:, 2]
-    assert up[0] > 0.1  # its upper edge goes to the right
-
-
 def _heights(noun, motion, place):
     motions = decide_motions((motion,), NOUNS[noun])
     actor, *_ = stage(SceneObject(noun, motions=motions), place=place).actors

@@ -108,28 +108,6 @@ def test_the_camera_stays_goes_along_or_shows_a_passage_as_the_speed_grows():
     assert [len(scene.camera_path.notes) for scene in (car, dog, dart)] == [0, 1, 1]
 
 
-@pytest.mark.parametrize("reason", ["static camera", "landmark", "other way"])
-def test_a_camera_that_may_not_go_along_shows_a_passage_and_says_when(reason):
-    bird, fields = thing("bird", ("fly", "right")), {}
-    others = {
-        "landmark": (thing("tree", ("stand",)),),
-        "other way": (thing("bird", ("fly", "left")),),
-    }
-    if reason == "static camera":
-        fields["camera"] = Camera((CameraMove("static"),))
-    if reason == "landmark":
-        fields["relations"] = (("past", 0, 1),)
-    scene = stage(bird, *others.get(reason, ()), **fields)
-    np.testing.assert_array_equal(scene.camera(0.0).position, scene.camera(2.0).position)
-    (note,) = scene.camera_path.notes
-    words = note.split()
-    lasts, begins = float(words[words.index("for") + 1]), float(words[words.index("from") + 1])
-    fine = np.linspace(0.0, DURATION_S, 201)
-    seen = fine[in_view(scene, fine)]
-    assert seen[0] == pytest.approx(begins, abs=0.1)
-    assert seen[-1] - seen[0] == pytest.approx(lasts, abs=0.2)
-
-
 def traffic(*nouns, duration_s=1.0, **fields):
     """Vehicles that drive right and left by turns on an empty plain."""
     things = (thing(noun, ("drive", ("right", "left")[n % 2])) for n, noun in enumerate(nouns))

@@ -1,30 +1,27 @@
-"""What works starts, stops and runs backwards at stated times; belts take along what is on them."""
+"""What works or switches does so at stated times; belts take along what is on them."""
 
 import itertools
 
 import numpy as np
 import pytest
 from tests.scenes.every_row import for_every
+from tests.scenes.staged import place
 
 from texvent.errors import ConfigError
-from texvent_scenes.defaults import complete
-from texvent_scenes.description import to_description
+from texvent_scenes.models.activities import ANIMAL_ACTIVITIES
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
 from texvent_scenes.scene_input import describe_scene
 from texvent_scenes.spec.scene import Motion, Relation, Scene, SceneObject
-from texvent_scenes.staging.placement.object_placement import ObjectPlacer
 
-LEVELS = {"air": 1.5, "water": 0.5, "clear": 0.0}
 WORKING = sorted(one.name for one in NOUNS.values() if one.is_working)
 BELTS = sorted(trait_values("belt speed").keys() - nouns_with("flat pattern"))
 SIGNS = {"left": -1.0, "right": 1.0, None: 1.0}
 
 
-def place(*objects, duration_s=3.0):
-    description = complete(to_description(Scene(objects=objects)), NOUNS)
-    placer = ObjectPlacer(description, NOUNS, seed=3, duration_s=duration_s, level_m=LEVELS)
-    return placer.place_all()
+def work(noun, *motions, bears=()):
+    """Bodies of 3 s: of what works, and of what is on it."""
+    return place(SceneObject(noun, motions=motions), *bears, duration_s=3.0)
 
 
 def drawn(actor, time_s):
@@ -44,9 +41,8 @@ def changes(actor, begin_s, end_s):
 @for_every(itertools.product(WORKING, (0.7, 1.2)))
 def test_what_works_stops_where_it_is_said_to_stand(row):
     noun, stop_s = row
-    motions = (Motion("work"), Motion("stand", start_s=stop_s))
-    (actor,) = place(SceneObject(noun, motions=motions))
-    (alone,) = place(SceneObject(noun, motions=(Motion("work"),)))
+    (actor,) = work(noun, Motion("work"), Motion("stand", start_s=stop_s))
+    (alone,) = work(noun, Motion("work"))
     assert changes(actor, 0.0, stop_s) == changes(alone, 0.0, stop_s)
     assert not changes(actor, stop_s, 3.0)
 
@@ -54,9 +50,8 @@ def test_what_works_stops_where_it_is_said_to_stand(row):
 @for_every(itertools.product(WORKING, (0.7, 1.2), (False, True)))
 def test_what_works_rests_up_to_the_time_it_starts(row):
     noun, start_s, is_said = row
-    motions = (Motion("stand"),) * is_said + (Motion("work", start_s=start_s),)
-    (actor,) = place(SceneObject(noun, motions=motions))
-    (alone,) = place(SceneObject(noun, motions=(Motion("work"),)))
+    (actor,) = work(noun, *[Motion("stand")] * is_said, Motion("work", start_s=start_s))
+    (alone,) = work(noun, Motion("work"))
     assert not changes(actor, 0.0, start_s)
     assert changes(actor, start_s, start_s + 1.5) == changes(alone, 0.0, 1.5)
 
@@ -68,7 +63,7 @@ def test_what_turns_at_a_rate_has_turned_so_often_when_it_stops(row):
     if not NOUNS[noun].is_working:
         return
     describe_scene(Scene(objects=(SceneObject(noun, motions=motions),)), NOUNS)
-    (actor,) = place(SceneObject(noun, motions=motions))
+    (actor,) = work(noun, *motions)
     own_hz = trait_value("turns per second", noun)
     run_s = actor.pose(3.0).time_s - actor.pose(0.0).time_s
     assert own_hz * run_s == pytest.approx(rate_hz * stop_s, abs=1e-9)
@@ -80,9 +75,8 @@ def test_a_belt_and_what_is_on_it_go_as_fast_as_said_and_stop_together(row):
     belt, way, kind, speed, noun = row
     motions = (Motion(kind, way, speed_m_s=speed), Motion("stand", start_s=1.25))
     on = SceneObject(noun, relations=(Relation("on", (belt,)),))
-    scene = Scene(objects=(SceneObject(belt, motions=motions), on))
-    describe_scene(scene, NOUNS)
-    below, actor = place(*scene.objects)
+    describe_scene(Scene(objects=(SceneObject(belt, motions=motions), on)), NOUNS)
+    below, actor = work(belt, *motions, bears=(on,))
     x = [actor.track.at(t).position[0] for t in (0.0, 0.5, 1.25, 3.0)]
     np.testing.assert_allclose(np.diff(x), SIGNS[way] * speed * np.array([0.5, 0.75, 0.0]),
                                atol=1e-9)  # fmt: skip
@@ -98,7 +92,7 @@ def test_a_belt_runs_back_with_what_is_on_it(row):
     motions = (Motion("work", there, speed_m_s=speed), Motion("stand", start_s=1.0),
                Motion("work", back, speed_m_s=2 * speed, start_s=1.5))  # fmt: skip
     on = SceneObject("mug", relations=(Relation("on", (belt,)),))
-    _, actor = place(SceneObject(belt, motions=motions), on)
+    _, actor = work(belt, *motions, bears=(on,))
     x = [actor.track.at(t).position[0] for t in (0.0, 1.0, 1.5, 2.0)]
     sign = SIGNS[there]
     np.testing.assert_allclose(np.diff(x), [sign * speed, 0.0, -sign * speed], atol=1e-9)
@@ -121,3 +115,58 @@ def test_what_a_machine_does_not_read_is_refused_without_motions_that_carry_it_o
     except ConfigError as error:
         words = str(error).partition("does not read it; ")[2]
         assert words.startswith("it reads ")
+
+
+SWITCHED = [(noun.name, kind) for noun in NOUNS.values() for kind in sorted(noun.acts)
+            if ANIMAL_ACTIVITIES[kind].to_state]  # fmt: skip
+
+
+def show(noun, *motions, duration_s=2.0):
+    one = SceneObject(noun, motions=motions)
+    describe_scene(Scene(objects=(one,)), NOUNS)
+    return place(one, duration_s=duration_s)[0]
+
+
+def light(actor, time_s):
+    return np.array([one.emission for one in actor.place(time_s).parts])
+
+
+def test_lights_switch():
+    assert {kind for _, kind in SWITCHED} >= {"turn green", "turn amber", "turn red"}
+
+
+@for_every(itertools.product(SWITCHED, (False, True), (0.4, 1.0, 1.7), (2.0, 3.0)))
+def test_a_state_changes_at_the_time_that_is_stated(row):
+    (noun, kind), is_said, start_s, duration_s = row
+    act = ANIMAL_ACTIVITIES[kind]
+    motions = (Motion(act.from_state),) * is_said + (Motion(kind, start_s=start_s),)
+    actor = show(noun, *motions, duration_s=duration_s)
+    before, after = (
+        light(show(noun, Motion(state), duration_s=duration_s), 0.5)
+        for state in (act.from_state, act.to_state)
+    )
+    assert not np.allclose(before, after)
+    for time_s in (0.0, 0.5 * start_s, start_s - 1e-6):
+        np.testing.assert_array_equal(light(actor, time_s), before)
+    for time_s in (start_s, start_s + 0.05, duration_s - 1e-6):
+        np.testing.assert_array_equal(light(actor, time_s), after)
+
+
+@for_every(itertools.product(SWITCHED, (0.6, 1.1)))
+def test_a_state_lasts_up_to_the_next(row):
+    (noun, kind), start_s = row
+    others = [one for name, one in SWITCHED if name == noun and one != kind]
+    for other in others:
+        motions = (Motion(kind, start_s=start_s), Motion(other, start_s=start_s + 0.5))
+        actor = show(noun, *motions)
+        states = [light(actor, t) for t in (start_s, start_s + 0.499, start_s + 0.5, 1.99)]
+        np.testing.assert_array_equal(states[0], states[1])
+        np.testing.assert_array_equal(states[2], states[3])
+        assert not np.allclose(states[1], states[2])
+
+
+def test_without_a_time_a_light_is_seen_before_and_after_it_turns():
+    (noun, kind), *_ = SWITCHED
+    actor = show(noun, Motion(kind))
+    assert not np.allclose(light(actor, 0.0), light(actor, 1.9))
+    assert pytest.approx(light(actor, 0.0)) == light(actor, 0.3)
