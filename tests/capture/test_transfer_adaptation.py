@@ -6,13 +6,12 @@ import numpy as np
 import pytest
 
 import texvent
-from texvent.capture.linear_light import gamma_coded
-from texvent.frames import Frame, MotionVectors, Video, transfer_of
+from texvent.frames import Frame, MotionVectors, Video
 from texvent.interpolate.flow import PairFlow
 from texvent.interpolate.motion.interpolator import MotionPair
 from texvent.pairs.instants import matching_levels
 from texvent.pairs.scene_change import SceneChange, detect_scene_change
-from texvent.transfer import Transfer, decode_srgb, encode_srgb
+from texvent.transfer import Transfer, encode_srgb
 
 
 def scene(place, brightest, lamp=None):
@@ -58,14 +57,6 @@ def test_every_model_takes_linear_light_as_it_is_defined_for_it(
     facts = events.metadata
     assert facts["settings"]["simulate"].get("gamma") == gamma.get("gamma")
     assert facts["source"].get("transfer") == (None if simulator == "texvent" else "linear")
-
-
-def test_gamma_coded_is_undone_by_srgb():
-    linear = video()
-    coded = gamma_coded(linear)
-    assert transfer_of(coded) is Transfer.GAMMA
-    for ours, before in zip(coded, linear, strict=True):
-        assert 255 * decode_srgb(ours.pixels / 255) == pytest.approx(before.pixels, rel=1e-4)
 
 
 def test_ordinary_levels_are_compared_as_they_are():

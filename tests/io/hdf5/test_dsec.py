@@ -16,6 +16,7 @@ from texvent.events import EventStream
 from texvent.io import block_writer
 from texvent.io.files import load, open_events, save
 from texvent.io.hdf5 import dsec
+from texvent.io.hdf5.storage import DeferredErrorFile
 from texvent.sensor import SensorSize
 
 from ..format_cases import random_events
@@ -191,3 +192,25 @@ def test_a_disk_that_fills_up_while_writing_leaves_nothing(tmp_path, monkeypatch
         save(tmp_path / "events.h5", at_times(*range(5000)))
     assert "\n" not in str(caught.value)
     assert not list(tmp_path.iterdir())
+
+
+def test_a_failed_write_is_remembered_and_ends_writing(tmp_path, monkeypatch):
+    def refuse(*_: object) -> int:
+        raise OSError(errno.ENOSPC, "full")
+
+    path = tmp_path / "file.bin"
+    path.touch()
+    with DeferredErrorFile(path) as file:
+        file.write(b"ab")
+        monkeypatch.setattr(os, "write", refuse)
+        assert file.write(b"cd") == 2
+        monkeypatch.undo()
+        assert file.write(b"ef") == 2
+        file.truncate()
+        file.seek(0)
+        found = bytearray(6)
+        assert file.readinto(found) == 6
+        assert found == b"ab\0\0\0\0"
+        with pytest.raises(OSError, match="full"):
+            file.raise_failure()
+    assert path.read_bytes() == b"ab"
