@@ -77,6 +77,12 @@ def test_a_silence_is_padded_with_every_turn_of_the_counter(tmp_path):
     assert load(path).t.tolist() == [10, 3 * 2**24 + 4096]
 
 
+def test_twelve_days_of_silence_cost_less_than_half_a_megabyte(tmp_path):
+    path = save(tmp_path / "e.raw", at_times(0, 2**40))
+    assert path.stat().st_size < 500_000
+    assert load(path).t.tolist() == [0, 2**40]
+
+
 def test_the_header_says_what_openeb_asks_for(tmp_path):
     path = save(tmp_path / "e.raw", at_times(1))
     assert path.read_bytes().split(b"% end\n")[0].decode().splitlines() == [
