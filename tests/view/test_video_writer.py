@@ -51,30 +51,9 @@ def test_mp4_times_are_the_source_frames_times_to_the_microsecond(tmp_path, step
     assert stream.codec_context.colorspace == 1, "tagged BT.709"
 
 
-def test_irregular_frame_times_are_kept(tmp_path):
-    times = [1_000, 1_007, 40_000, 1_040_000, 1_040_001]
-    pixels = np.zeros(SIZE.shape, dtype=np.uint8)
-    steps = [(Frame(pixels, t), EventStream.empty(SIZE)) for t in times]
-    shown, _, _ = read_video(write_video(tmp_path / "out.mp4", steps))
-    assert shown == [t - 1_000 for t in times[:-1]]
-
-
 def test_the_index_lies_in_front_so_that_browsers_start_at_once(tmp_path, steps):
     content = write_video(tmp_path / "out.mp4", steps).read_bytes()
     assert 0 < content.index(b"moov") < content.index(b"mdat")
-
-
-def test_events_of_intermediate_frames_count_for_the_next_source_frame(tmp_path, steps):
-    dense = write_video(tmp_path / "dense.mp4", steps)
-    merged: Steps = []
-    waiting: list[EventStream] = [EventStream.empty(SIZE)]
-    for frame, packet in steps:
-        waiting.append(packet)
-        if frame.is_source:
-            merged.append((frame, EventStream.concat(waiting)))
-            waiting = [EventStream.empty(SIZE)]
-    plain = write_video(tmp_path / "plain.mp4", merged)
-    assert np.array_equal(read_video(dense)[1], read_video(plain)[1])
 
 
 def test_gif_times_are_rounded_but_do_not_drift(tmp_path, steps):
