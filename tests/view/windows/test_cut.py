@@ -159,14 +159,6 @@ def test_an_arrow_is_drawn_from_its_tail_along_the_motion() -> None:
     assert (columns.min(), columns.max()) == pytest.approx((8, 48), abs=2)
 
 
-def test_each_interval_gets_the_frame_that_was_on_show_when_it_began() -> None:
-    counts = np.zeros((2, *SHOWN.shape), dtype=np.int32)
-    starts = [-5, 0, 9_999, 10_000, 25_000]
-    beside = SourceOverlay(video(), "none", size=SHOWN)
-    shown = beside.add_frames(EventWindow(t, t + 1, counts) for t in starts)
-    assert [int(one.image.mean()) for one in shown] == [0, 0, 0, 50, 100]
-
-
 class DrawnVideo(KnownVideo):
     """The same frames, each drawn by itself."""
 
