@@ -21,14 +21,7 @@ SWITCH_US = 10
 def simulate_static(
     config: PhysicalConfig, size: SensorSize, seconds: float, *, seed: int = 0
 ) -> EventStream:
-    """Events of a scene at rest, by a sensor that has run before: pixels have any phase.
-
-    Args:
-        config: the model; its gamma is taken for 1.
-        size: of the sensor.
-        seconds: how long.
-        seed: of everything random.
-    """
+    """Events of a scene at rest, by a sensor that has run before: pixels have any phase."""
     config = dataclasses.replace(config, initial_phase="random")
     stop_us = round(seconds * MICROSECONDS)
     times = [*range(0, stop_us, STATIC_STEP_US), stop_us]
@@ -41,13 +34,8 @@ def simulate_flicker(
 ) -> EventStream:
     """Events of a flat field that switches between two brightnesses.
 
-    Args:
-        config: the model; its gamma is taken for 1.
-        size: of the sensor.
-        hz: cycles of the light per second; each begins with its bright half.
-        ratio: bright over dark; bright is white.
-        number: cycles that are simulated, after one that is left out.
-        seed: of everything random.
+    Each of `number` cycles, after one that is left out, begins with its bright half, which is white
+    and `ratio` times as bright as the dark one.
     """
     bright = np.full((size.height, size.width), WHITE, np.float32)
     dark = (bright / ratio).astype(np.float32)

@@ -1,14 +1,21 @@
+import dataclasses
+
 import numpy as np
 import pytest
 
+from texvent.calibrate.fit import fit_sensor
 from texvent.calibrate.recording import CalibrationRecording, TimeSpan, simulate_span
-from texvent.config import InterpolateConfig
+from texvent.capture.open import open_frames
+from texvent.config import CaptureConfig, InterpolateConfig
+from texvent.data.pull import pull
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.frames import Video
+from texvent.io.files import load
 from texvent.pipeline import video_to_events
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
+from texvent.simulation.physical.cameras import PRESETS
 
 from .conftest import TRUTH, moving_blobs
 
@@ -63,3 +70,20 @@ def test_a_fit_sees_the_frames_that_a_run_of_the_model_sees(moving_texture):
     steps = video_to_events(frames, settings).steps()
     assert [one.t_us for one in dense] == [frame.t_us for frame, _ in steps]
     assert len(dense) > 2 * len(faint)
+
+
+@pytest.mark.network
+def test_a_fitted_davis_is_closer_to_the_half_it_has_not_seen():
+    folder = pull("slider_depth")
+    recording = CalibrationRecording(
+        open_frames(folder, CaptureConfig()),
+        load(folder / "events.txt", size=SensorSize(240, 180)),
+        InterpolateConfig(max_intermediate=8),
+    )
+    start = dataclasses.replace(PRESETS["davis240c"], gamma=1.0)
+    fit = fit_sensor(recording, start=start, seconds=0.3)
+    before, after = (fit.distances[name][1] for name in ("start", "fitted"))
+    assert after.total < 0.4 * before.total
+    assert after.overlap < before.overlap - 0.1
+    assert after.intervals < before.intervals
+    assert fit.noise is not None

@@ -84,12 +84,6 @@ def test_bars_stand_still_far_away():
     assert np.array_equal(fitted.forward[1:3], motion_of(2, 4).forward)
 
 
-def test_stretching_scales_each_axis_by_itself():
-    fitted = fit_motion(motion_of(4, 4), SensorSize(8, 2), "stretch")
-    assert fitted.forward[1, 7].tolist() == [6.0, 1.5]
-    assert fitted.instance[0].tolist() == [0, 0, 1, 1, 2, 2, 3, 3]
-
-
 @given(sides, sides, sides, sides, st.sampled_from(["cover", "contain", "stretch"]))
 def test_motion_fits_wherever_pixels_do(width, height, new_width, new_height, fit):
     size = SensorSize(new_width, new_height)

@@ -51,15 +51,6 @@ def test_sixteen_bits_stay(tmp_path):
     assert int(frames[1].pixels[0, 0]) == 30_100
 
 
-def test_colour_comes_as_rgb_and_alpha_goes(tmp_path):
-    for index in range(2):
-        pixels = np.zeros((4, 6, 4), np.uint8)
-        pixels[:] = (10, 20, 200, 128)  # blue, green, red, alpha
-        cv2.imwrite(str(tmp_path / f"{index}.png"), pixels)
-    frame = next(iter(open_frames(tmp_path, CaptureConfig(fps=Fraction(10)))))
-    assert frame.pixels[0, 0].tolist() == [200, 20, 10]
-
-
 def test_a_wrong_number_of_times_is_refused(tmp_path):
     save_images(tmp_path)
     (tmp_path / "timestamps.txt").write_text("0\n0.1\n")

@@ -6,15 +6,12 @@ import numpy as np
 import pytest
 
 import texvent
-from texvent.capture.linear_light import gamma_coded
-from texvent.frames import Frame, MotionVectors, Video, transfer_of
+from texvent.frames import Frame, MotionVectors, Video
 from texvent.interpolate.flow import PairFlow
 from texvent.interpolate.motion.interpolator import MotionPair
 from texvent.pairs.instants import matching_levels
 from texvent.pairs.scene_change import SceneChange, detect_scene_change
-from texvent.transfer import Transfer, decode_srgb, encode_srgb
-
-QUIET = {"simulator": "physical", "preset": "clean"}
+from texvent.transfer import Transfer, encode_srgb
 
 
 def scene(place, brightest, lamp=None):
@@ -41,45 +38,25 @@ def recoded(linear, curve):
     return Video(curve(linear.pixels / 255), linear.times_us, linear.fps)
 
 
-def columns(events):
-    return events.t.tolist(), events.x.tolist(), events.y.tolist(), events.p.tolist()
-
-
-@pytest.mark.parametrize("simulator", ["esim", "v2e"])
-def test_log_models_take_the_logarithm_of_light(simulator):
-    options = {"simulator": simulator, "interpolate": "none", "seed": 3}
-    linear = video()
-    as_it_is = recoded(linear, lambda light: 255 * light)
-    assert columns(texvent.simulate(linear, **options)) == columns(
-        texvent.simulate(as_it_is, **options)
-    )
-
-
-def test_physical_decodes_linear_frames_no_more():
-    linear = video()
-    events = texvent.simulate(linear, **QUIET, interpolate="none")
-    as_it_is = recoded(linear, lambda light: 255 * light)
-    assert columns(events) == columns(
-        texvent.simulate(as_it_is, **QUIET, gamma=1.0, interpolate="none")
-    )
-    assert events.metadata["settings"]["simulate"]["gamma"] == 1.0
-    assert events.metadata["source"]["transfer"] == "linear"
-
-
-def test_texvent_sees_linear_frames_as_gamma_coded_ones():
-    linear = video()
-    coded = recoded(linear, encode_srgb)
-    ours, twins = (texvent.simulate(one, seed=2) for one in (linear, coded))
-    assert columns(ours) == columns(twins)
-    assert "transfer" not in ours.metadata["source"]
-
-
-def test_gamma_coded_is_undone_by_srgb():
-    linear = video()
-    coded = gamma_coded(linear)
-    assert transfer_of(coded) is Transfer.GAMMA
-    for ours, before in zip(coded, linear, strict=True):
-        assert 255 * decode_srgb(ours.pixels / 255) == pytest.approx(before.pixels, rel=1e-4)
+@pytest.mark.parametrize(
+    ("simulator", "interpolate", "curve", "gamma"),
+    [
+        ("esim", "none", lambda light: 255 * light, {}),
+        ("v2e", "none", lambda light: 255 * light, {}),
+        ("physical", "none", lambda light: 255 * light, {"gamma": 1.0}),
+        ("texvent", "flow", encode_srgb, {}),
+    ],
+)
+def test_every_model_takes_linear_light_as_it_is_defined_for_it(
+    simulator, interpolate, curve, gamma
+):
+    """As it is, without decoding it once more, or gamma-coded."""
+    linear, options = video(), {"simulator": simulator, "interpolate": interpolate, "seed": 3}
+    events = texvent.simulate(linear, **options)
+    assert events == texvent.simulate(recoded(linear, curve), **options, **gamma)
+    facts = events.metadata
+    assert facts["settings"]["simulate"].get("gamma") == gamma.get("gamma")
+    assert facts["source"].get("transfer") == (None if simulator == "texvent" else "linear")
 
 
 def test_ordinary_levels_are_compared_as_they_are():

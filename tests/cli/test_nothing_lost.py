@@ -1,9 +1,11 @@
 """No input is overwritten, and a run that is stopped cleans up or keeps what it has."""
 
+import errno
 import os
 import shutil
 import signal
 import sys
+import threading
 import time
 from pathlib import Path
 from subprocess import PIPE
@@ -13,6 +15,10 @@ import pytest
 from tests.cli.running import run
 
 import texvent
+from texvent.cli.app import main
+from texvent.errors import OutputError
+from texvent.io import block_writer
+from texvent.io.hdf5.storage import Hdf5Writer
 
 COMMAND = [sys.executable, "-m", "texvent.cli.app"]
 SMALL = ("--sensor", "64x48", "--interpolate", "none", "--noise", "none")
@@ -165,3 +171,27 @@ def test_a_video_that_ends_in_damage_keeps_what_came_before_if_that_was_asked_fo
     assert len(events)
     assert events.metadata["complete"] is False
     assert "cut.avi" in events.metadata["stopped_by"]
+
+
+CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
+
+
+def simulate(folder, *words):
+    return main(["simulate", str(CLIP), "-o", str(folder / "out.h5"), "--stop", "0.5", *words])
+
+
+def fail_in_a_thread(*_):
+    assert threading.current_thread() is not threading.main_thread()
+    raise OSError(errno.ENOSPC, "No space left on device")
+
+
+@pytest.mark.parametrize("interpolate", ["none", "flow"])
+def test_a_full_disk_stops_the_run_and_leaves_nothing(tmp_path, monkeypatch, capsys, interpolate):
+    monkeypatch.setattr(block_writer, "BLOCK_EVENTS", 100)
+    monkeypatch.setattr(Hdf5Writer, "_write_pending", lambda *_, final: fail_in_a_thread())
+    assert simulate(tmp_path, "--interpolate", interpolate) == OutputError.exit_code
+    said = capsys.readouterr()
+    assert "the disk is full" in said.err.splitlines()[-1]
+    assert said.out == ""
+    assert not list(tmp_path.iterdir())
+    assert not [one for one in threading.enumerate() if one.name.startswith("texvent-writer")]

@@ -1,6 +1,6 @@
 """Every relative link in the pages leads to a file, and to a heading where it names one.
 
-Pages and code name other pages by path too; those paths exist.
+Pages and code name other pages by path too, SECURITY.md its tests; those paths exist.
 """
 
 import re
@@ -78,3 +78,18 @@ def test_names_that_pages_import_exist(module, name):
     file = path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
     text = next(path.glob("__init__.pyi"), file).read_text(encoding="utf-8")
     assert re.search(rf"\b{name}\b", text) or (path / f"{name}.py").exists()
+
+
+PROMISES = [
+    line.split("|")[1:3]
+    for line in (ROOT / "SECURITY.md").read_text("utf-8").splitlines()
+    if "`tests/" in line
+]
+
+
+@pytest.mark.parametrize(("promise", "tests"), PROMISES, ids=[str(n) for n in range(len(PROMISES))])
+def test_every_promise_names_tests_that_exist(promise, tests):
+    named = re.findall(r"`([^`]+)`", tests)
+    assert named
+    assert [one for one in named if not (ROOT / one).exists()] == []
+    assert promise.strip().endswith((".", ")"))

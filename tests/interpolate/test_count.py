@@ -1,16 +1,22 @@
-"""Eq. 4: how many intermediate frames, and when."""
+"""Eq. 4: how many intermediate frames, when, and what raises and lowers their number."""
 
 import math
 from fractions import Fraction
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
+from texvent._registry import INTERPOLATORS
 from texvent.brightness import balanced_log
-from texvent.frames import Frame
-from texvent.interpolate.count_policy import count_for_flicker, count_intermediate
+from texvent.config import InterpolateConfig
+from texvent.frames import Frame, MotionVectors, Video
+from texvent.interpolate.count_policy import CountPolicy, count_for_flicker, count_intermediate
+from texvent.interpolate.flow import PairFlow
+from texvent.interpolate.pairing import pair_frames
+from texvent.interpolate.simple import BlendInterpolator
 from texvent.pairs.instants import intermediate_times_us
 
 BLACK = np.zeros((2, 2), np.uint8)
@@ -64,3 +70,117 @@ def test_times_are_equally_spaced_to_half_a_microsecond(first_us, interval_us, w
     for k, t_us in enumerate(got, start=1):
         exact = Fraction(interval_us * k, len(got) + 1)
         assert abs(t_us - first_us - exact) <= Fraction(1, 2)
+
+
+@pytest.fixture
+def policy(stream):
+    def build(interpolator=None, counts_motion=False, **options):
+        config = InterpolateConfig(**{"interpolate": "blend", **options})
+        interpolator = interpolator or INTERPOLATORS.load(config.interpolate)(config, stream)
+        return CountPolicy(
+            config,
+            stream,
+            interpolator,
+            balance=30.0,
+            contrast_threshold=0.2,
+            counts_motion=counts_motion,
+        )
+
+    return build
+
+
+@pytest.fixture
+def faint_pair(moving_texture, pair):
+    """A texture too faint for Eq. 4 that moves by 7 px."""
+    faint = [100 + moving_texture(dx) / 50 for dx in (0, 7)]
+    return pair(*faint, interval_us=40_000)
+
+
+@pytest.fixture
+def contrast_pair(pair):
+    """Black to white: 11 by Eq. 4."""
+    black, white = np.zeros((40, 40), np.uint8), np.full((40, 40), 255, np.uint8)
+    return pair(black, white, interval_us=40_000)
+
+
+def test_motion_raises_the_count_of_a_faint_pair(policy, faint_pair):
+    assert policy().count(*faint_pair) == 0
+    # The fastest thousandth are a few vectors gone astray in a corner.
+    assert policy(frames_per_pixel=1.0).count(*faint_pair) in (7, 8, 9)
+    assert policy(frames_per_pixel=1.0, max_intermediate=5).count(*faint_pair) == 5
+
+
+@pytest.mark.parametrize(("motion_px", "expected"), [(5, 11), (15, 15), (40, 22)])
+def test_where_nothing_is_said_motion_counts_up_to_twice_eq4(
+    policy, contrast_pair, monkeypatch, motion_px, expected
+):
+    monkeypatch.setattr(PairFlow, "motion_px", lambda *_: motion_px)
+    gaining = {"interpolate": "flow", "counts_motion": True}
+    assert policy(**gaining).count(*contrast_pair) == expected
+    assert policy(**gaining, max_intermediate=12).count(*contrast_pair) == min(expected, 12)
+    assert policy(**gaining, frames_per_pixel=0.0).count(*contrast_pair) == 11
+    assert policy(**gaining, frames_per_pixel=1.0).count(*contrast_pair) == max(motion_px, 11)
+    assert policy(interpolate="flow").count(*contrast_pair) == 11
+    assert policy(interpolate="blend", counts_motion=True).count(*contrast_pair) == 11
+
+
+def test_where_nothing_can_fire_motion_is_not_even_estimated(policy, faint_pair, monkeypatch):
+    monkeypatch.setattr(PairFlow, "motion_px", None)
+    assert policy(interpolate="flow", counts_motion=True).count(*faint_pair) == 0
+
+
+def test_a_fixed_count_and_none_ignore_motion(policy, faint_pair):
+    assert policy(frames_per_pixel=1.0, fixed_count=2).count(*faint_pair) == 2
+    assert policy(frames_per_pixel=1.0, interpolate="none").count(*faint_pair) == 0
+
+
+def test_flow_for_the_count_and_for_the_frames_is_computed_once(moving_texture, monkeypatch):
+    video = Video(np.stack([100 + moving_texture(4 * i) / 50 for i in range(3)]), [0, 9000, 18_000])
+    config = InterpolateConfig(interpolate="flow", frames_per_pixel=1.0)
+    interpolator = INTERPOLATORS.load("flow")(config, video)
+    dis = interpolator.pair_flow._dis
+    calls = []
+    compute = dis.both_ways
+    monkeypatch.setattr(dis, "both_ways", lambda *pair: calls.append(pair) or compute(*pair))
+    policy = CountPolicy(config, video, interpolator, balance=30.0, contrast_threshold=0.2)
+    pairs = list(pair_frames(video, interpolator, config, policy))
+    assert len(calls) == 2
+    assert min(len(pair.times_us) for pair in pairs[1:]) >= 4
+
+
+def test_motion_is_that_of_the_fastest_thousandth(moving_texture):
+    still = PairFlow().motion_px(Frame(moving_texture(0), 0), Frame(moving_texture(0), 1))
+    assert still == 0
+    fast = PairFlow().motion_px(Frame(moving_texture(0), 0), Frame(moving_texture(5.2), 1))
+    assert 5.2 < fast < 7
+
+
+def test_motion_is_that_from_the_first_frame_to_the_second():
+    y, x = np.mgrid[-40:40, -50:50]
+
+    def zoomed(factor):
+        u, v = x / factor, y / factor
+        levels = 120 + 50 * np.sin(0.35 * u) * np.cos(0.3 * v) + 40 * np.sin(0.11 * u + 0.17 * v)
+        return Frame(levels.astype(np.float32), round(1000 * factor))
+
+    pair = zoomed(1.2), zoomed(1.0)
+    lengths = [np.hypot(*np.moveaxis(one, -1, 0)) for one in PairFlow().both_ways(*pair)]
+    forward, backward = (np.percentile(one, 99.9) for one in lengths)
+    assert PairFlow().motion_px(*pair) == pytest.approx(forward, rel=0.05)
+    assert abs(backward - forward) > 0.1 * forward
+
+
+def test_known_motion_counts_where_it_is_followed(policy, pair, stream):
+    first, second = pair(*[np.full((4, 4), 100, np.uint8)] * 2, interval_us=40_000)
+    forward = np.zeros((4, 4, 2), np.float32)
+    forward[1, 2], forward[0, 0] = (6.0, -8.0), np.nan
+    moving = [Frame(one.pixels, one.t_us, motion=MotionVectors(forward)) for one in (first, second)]
+    blend = BlendInterpolator(InterpolateConfig(), stream)
+    assert policy(blend, interpolate="motion").count(*moving) == 10
+    assert policy(blend, interpolate="motion", frames_per_pixel=2.0).count(*moving) == 20
+    assert policy(blend, interpolate="motion", frames_per_pixel=0.0).count(*moving) == 10
+    assert policy(blend, interpolate="motion", max_intermediate=3).count(*moving) == 3
+    assert policy(blend, interpolate="motion").count(first, second) == 0
+    back = Frame(second.pixels, second.t_us, motion=MotionVectors(backward=forward))
+    assert policy(blend, interpolate="motion").count(first, back) == 10
+    assert policy().count(*moving) == 0

@@ -47,12 +47,15 @@ def test_aedat2_records_are_big_endian_addresses_and_times(tmp_path, options, si
         ("eu.seebetter.ini.chips.davis.DAVIS128", (128, 128)),
         ("eu.seebetter.ini.chips.davis.DAViS640", (640, 480)),
         ("eu.seebetter.ini.chips.davis.Davis346blue", (346, 260)),
+        ("eu.seebetter.ini.chips.davis.DVS240", (240, 180)),
+        ("ch.unizh.ini.jaer.chip.retina.DVS640", (640, 480)),
     ],
 )
 def test_the_chip_of_jaer_names_sensor_and_layout(tmp_path, chip, size):
     path = tmp_path / "e.aedat"
     width, height = size or (346, 260)
-    record = struct.pack(">II", (height - 1) << 22 | (width - 1) << 12, 7)
+    row, column = (11, 1) if chip.endswith("DVS640") else (22, 12)
+    record = struct.pack(">II", (height - 1) << row | (width - 1) << column, 7)
     path.write_bytes(f"#!AER-DAT2.0\r\n# AEChip: {chip}\r\n".encode() + record)
     if size is None:
         with pytest.raises(InputError, match="does not say which camera made it"):

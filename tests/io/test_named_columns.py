@@ -17,6 +17,8 @@ from texvent.io.files import load
 from texvent.io.tables import SPELLINGS
 from texvent.sensor import SensorSize
 
+from .column_files import write_columns
+
 SIZE = SensorSize(240, 180)
 COUNT = 6000
 RNG = np.random.default_rng(0)
@@ -28,7 +30,7 @@ def pairs(*choices: Iterable[Any]) -> list[tuple[Any, ...]]:
     return list(itertools.product(*choices))
 
 
-KINDS = ("npz", "npy", "records.npy", "h5", "csv", "txt")
+KINDS = ("npz", "rows.npy", "npy", "h5", "csv", "txt")
 
 
 @pytest.fixture(autouse=True)
@@ -37,27 +39,10 @@ def own_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def written(kind: str, **changed: Any) -> Path:
-    """A file of the columns, of which some are changed."""
-    columns: dict[str, NDArray[Any]] = {"t": T, "x": X, "y": Y, "p": P, **changed}
-    path = Path(f"e.{kind}")
-    if kind == "npz":
-        np.savez(path, **columns)
-    elif kind == "npy":
-        np.save(path, np.stack([columns[name] for name in "txyp"], axis=1))
-    elif kind == "records.npy":
-        records = np.zeros(len(columns["t"]), [(name, one.dtype) for name, one in columns.items()])
-        for name, one in columns.items():
-            records[name] = one
-        np.save(path, records)
-    elif kind == "h5":
-        with h5py.File(path, "w") as file:
-            for name, one in columns.items():
-                file[f"events/{name}"] = one
-    else:
-        mark = "," if kind == "csv" else " "
-        rows = zip(*(one.tolist() for one in columns.values()), strict=True)
-        path.write_text("\n".join(mark.join(map(str, row)) for row in [columns, *rows]) + "\n")
-    return path
+    """A file of the columns, of which some are changed, or None and left out."""
+    columns = {"t": T, "x": X, "y": Y, "p": P, **changed}
+    columns = {name: one for name, one in columns.items() if one is not None}
+    return write_columns(Path(f"e.{kind}"), columns)
 
 
 def found(path: Path, **options: Any) -> tuple[EventStream | str, list[str]]:
@@ -118,7 +103,7 @@ DOUBTED: Mapping[str, tuple[NDArray[Any], str]] = {
 @pytest.mark.parametrize(("kind", "times"), pairs(KINDS, DOUBTED))
 def test_a_doubtful_unit_is_said_with_the_likely_one(kind, times):
     stored, unit = DOUBTED[times]
-    if kind == "npy" and times == "ns since 1970":
+    if kind == "rows.npy" and times == "ns since 1970":
         stored = stored.astype(np.int64)
     path = written(kind, t=stored)
     events, said = found(path)
@@ -142,12 +127,11 @@ def test_a_unit_given_against_the_stated_one_is_said():
     assert "states its times in us; they are read as ms" in found(path, time_unit="ms")[1][0]
 
 
-@pytest.mark.parametrize(("kind", "unit"), pairs(("npz", "npy"), (1e6, 1.0)))
+@pytest.mark.parametrize(("kind", "unit"), pairs(("npz", "rows.npy"), (1e6, 1.0)))
 def test_times_that_have_lost_the_microseconds_are_said(kind, unit):
     late = (T / unit * 4).astype(np.float32)
-    path = written(kind, t=late) if kind == "npz" else Path("e.npy")
-    if kind == "npy":
-        np.save(path, np.stack([late, X, Y, P], axis=1).astype(np.float32))
+    others = {"x": np.float32(X), "y": np.float32(Y), "p": np.float32(P)}
+    path = written(kind, t=late, **({} if kind == "npz" else others))
     assert "float32, which at the end keeps steps of" in found(path)[1][0]
 
 
@@ -184,7 +168,7 @@ def polarities(off: Any, on: Any) -> NDArray[Any]:
     ("kind", "code"),
     [
         *itertools.product(KINDS, CODES),
-        *itertools.product(("npz", "records.npy", "csv", "txt"), WORDS),
+        *itertools.product(("npz", "npy", "csv", "txt"), WORDS),
     ],
 )
 def test_polarity_is_read_in_every_code(kind, code):
@@ -195,7 +179,7 @@ def test_polarity_is_read_in_every_code(kind, code):
 
 @pytest.mark.parametrize(("kind", "code"), pairs(KINDS, [(0, 2), (2, 2), (255, 255), (-1, 0)]))
 def test_polarity_that_can_mean_two_things_is_refused(kind, code):
-    options = {"columns": "t,x,y,p"} if kind == "npy" else {}
+    options = {"columns": "t,x,y,p"} if kind == "rows.npy" else {}
     events, _ = found(written(kind, p=polarities(*code)), **options)
     assert "it must be 0/1, -1/+1, 0/255, 1/2" in str(events)
 
@@ -208,20 +192,10 @@ def test_a_code_that_shows_late_does_not_change_earlier_events():
     assert "polarity holds 1, 2" in str(events)
 
 
+@pytest.mark.parametrize("kind", ["npz", "npy", "csv"])
 @pytest.mark.parametrize("name", ["on", "is_on", "polarity_on"])
-def test_on_is_a_name_of_polarity(name):
-    records = np.zeros(COUNT, [("t", "<u8"), ("x", "<u2"), ("y", "<u2"), (name, "?")])
-    for field, column in zip(("t", "x", "y", name), (T, X, Y, P), strict=True):
-        records[field] = column
-    np.save("e.npy", records)
-    assert is_true(found(Path("e.npy"))[0])
-    np.savez("e.npz", **{"t": T, "x": X, "y": Y, name: P == 1})
-    assert is_true(found(Path("e.npz"))[0])
-    rows = zip(T, X, Y, P == 1, strict=True)
-    Path("e.csv").write_text(
-        f"t,x,y,{name}\n" + "".join(f"{t},{x},{y},{p}\n" for t, x, y, p in rows)
-    )
-    assert is_true(found(Path("e.csv"))[0])
+def test_on_is_a_name_of_polarity(kind, name):
+    assert is_true(found(written(kind, p=None, **{name: P == 1}))[0])
 
 
 ID_KINDS = (None, np.uint16, np.int64, np.float32)
@@ -310,7 +284,7 @@ def test_arrays_behind_one_another_are_refused():
     assert "holds several arrays" in str(found(Path("e.npy"))[0])
 
 
-@pytest.mark.parametrize("kind", ["npz", "records.npy", "h5"])
+@pytest.mark.parametrize("kind", ["npz", "npy", "h5"])
 def test_space_that_nobody_wrote_is_left_out_by_repair(kind):
     path = written(
         kind, **{n: np.pad(c, (0, 300)) for n, c in zip("txyp", (T, X, Y, P), strict=True)}

@@ -6,7 +6,6 @@ installed the test is reported as skipped; CI installs them.
 
 import zipfile
 
-import h5py
 import numpy as np
 import pytest
 
@@ -111,32 +110,6 @@ def test_rosbags_reads_an_mcap_file_and_its_words_are_evt3(tmp_path, events):
     assert len(words) > 40_000
     # Byte for byte what the EVT3 file holds after its text header.
     assert raw.endswith(b"% end\n" + words)
-
-
-def test_plain_h5py_slices_dsec_as_its_own_loader_does(tmp_path):
-    start = 58_122_045_678
-    events = random_events(20_000, SensorSize(640, 480), span_us=80_000, start_us=start)
-    path = save(tmp_path / "events.h5", events, format="dsec")
-    with h5py.File(path) as file:
-        assert {name: file[f"events/{name}"].dtype.str for name in "xytp"} == {
-            "x": "<u2", "y": "<u2", "t": "<u4", "p": "|u1",
-        }  # fmt: skip
-        offset = int(file["t_offset"][()])
-        assert 0 <= int(events.t[0]) - offset < 1000
-        index = file["ms_to_idx"][:].astype(np.int64)
-        t = file["events/t"][:].astype(np.int64)
-        for ms in (0, 1, 40, 79):
-            assert index[ms] == np.searchsorted(t, ms * 1000, side="left")
-        x, y, p = (file[f"events/{name}"][:] for name in "xyp")
-        assert_same(events, x, y, t + offset, p)
-
-
-def test_plain_numpy_reads_n_imagenet_as_its_loader_does(tmp_path, events):
-    path = save(tmp_path / "e.npz", events, format="n-imagenet")
-    with np.load(path) as archive:
-        data = archive["event_data"]
-    rows = np.vstack([data["x"], data["y"], data["t"], data["p"].astype(np.uint8)]).T
-    assert_same(events, *rows.T)
 
 
 def test_plain_zipfile_reads_e2vid(tmp_path, events):

@@ -1,11 +1,9 @@
 """Units of times and rows of arrays that are doubted, and those that are not."""
 
 import warnings
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import h5py
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -14,6 +12,7 @@ from texvent.errors import FileFormatError, TexventWarning
 from texvent.io.files import load, save
 from texvent.sensor import SensorSize
 
+from .column_files import write_columns
 from .format_cases import random_events
 
 SIZE = SensorSize(64, 48)
@@ -21,48 +20,15 @@ COUNT = 3000
 STEADY = np.arange(COUNT) * 700
 
 
-def npz(path: Path, columns: dict[str, NDArray[Any]]) -> Path:
-    np.savez(path / "e.npz", **columns)  # type: ignore[arg-type]  # of NumPy's stubs
-    return path / "e.npz"
+KINDS = ("npz", "npy", "h5", "parquet")
+every_kind = pytest.mark.parametrize("kind", KINDS)
 
 
-def npy(path: Path, columns: dict[str, NDArray[Any]]) -> Path:
-    rows = np.empty(COUNT, [(name, one.dtype) for name, one in columns.items()])
-    for name, one in columns.items():
-        rows[name] = one
-    np.save(path / "e.npy", rows)
-    return path / "e.npy"
-
-
-def hdf5(path: Path, columns: dict[str, NDArray[Any]]) -> Path:
-    with h5py.File(path / "e.h5", "w") as file:
-        for name, one in columns.items():
-            file[f"events/{name}"] = one
-    return path / "e.h5"
-
-
-def parquet(path: Path, columns: dict[str, NDArray[Any]]) -> Path:
-    arrow = pytest.importorskip("pyarrow")
-    table = arrow.table({name: arrow.array(one) for name, one in columns.items()})
-    pytest.importorskip("pyarrow.parquet").write_table(table, path / "e.parquet")
-    return path / "e.parquet"
-
-
-def csv(path: Path, columns: dict[str, NDArray[Any]]) -> Path:
-    rows = zip(*(one.tolist() for one in columns.values()), strict=True)
-    texts = ([f"{one:.16g}" if isinstance(one, float) else str(one) for one in row] for row in rows)
-    lines = [",".join(columns), *map(",".join, texts)]
-    (path / "e.csv").write_text("\n".join(lines))
-    return path / "e.csv"
-
-
-Write = Callable[[Path, dict[str, NDArray[Any]]], Path]
-every_writer = pytest.mark.parametrize("write", [npz, npy, hdf5, parquet])
-
-
-def columns(**others: NDArray[Any]) -> dict[str, NDArray[Any]]:
+def written(folder: Path, kind: str, **others: NDArray[Any]) -> Path:
+    """A file of the columns, some of them others."""
     at = np.arange(COUNT)
-    return {"x": at % 64, "y": at % 48, "t": STEADY, "p": at % 2, **others}
+    columns = {"x": at % 64, "y": at % 48, "t": STEADY, "p": at % 2, **others}
+    return write_columns(folder / f"e.{kind}", columns)
 
 
 def changed(values: NDArray[Any], value: float, at: int = 1500) -> NDArray[Any]:
@@ -71,7 +37,7 @@ def changed(values: NDArray[Any], value: float, at: int = 1500) -> NDArray[Any]:
     return values
 
 
-@pytest.mark.parametrize("write", [npz, npy, hdf5, parquet, csv])
+@pytest.mark.parametrize("kind", [*KINDS, "csv"])
 @pytest.mark.parametrize(
     "wrong",
     [
@@ -82,8 +48,8 @@ def changed(values: NDArray[Any], value: float, at: int = 1500) -> NDArray[Any]:
         {"x": changed(np.arange(COUNT) % 64 * 1.0, 0.5)},
     ],
 )
-def test_a_row_of_arrays_that_is_no_event_is_repaired(tmp_path, write, wrong):
-    path = write(tmp_path, columns(**wrong))
+def test_a_row_of_arrays_that_is_no_event_is_repaired(tmp_path, kind, wrong):
+    path = written(tmp_path, kind, **wrong)
     with pytest.raises(FileFormatError):
         load(path, size=SIZE)
     with pytest.warns(TexventWarning, match=r"unreadable rows: 1\)"):
@@ -91,27 +57,27 @@ def test_a_row_of_arrays_that_is_no_event_is_repaired(tmp_path, write, wrong):
     assert found.t.tolist() == np.delete(STEADY, 1500).tolist()
 
 
-@every_writer
+@every_kind
 @pytest.mark.parametrize(("at", "value"), [(-1, 10**13), (0, -(10**10))])
-def test_one_wrong_time_says_nothing_of_the_unit(tmp_path, write, at, value):
-    path = write(tmp_path, columns(t=changed(STEADY, value, at)))
+def test_one_wrong_time_says_nothing_of_the_unit(tmp_path, kind, at, value):
+    path = written(tmp_path, kind, t=changed(STEADY, value, at))
     with pytest.warns(TexventWarning, match="a few of its times are"):
         load(path, size=SIZE)
     with pytest.warns(TexventWarning, match=r"stray times: 1\)"):
         assert len(load(path, size=SIZE, repair=True)) == COUNT - 1
 
 
-@every_writer
-@pytest.mark.parametrize("kind", [int, float])
+@every_kind
+@pytest.mark.parametrize("dtype", [int, float])
 @pytest.mark.parametrize("start", [0, 3_000_000_000, 1_700_000_000_000_000])
-def test_whole_us_are_read_after_a_pause_and_since_1970(tmp_path, write, start, kind):
-    times = (start + STEADY + np.where(np.arange(COUNT) < 1500, 0, 3_600_000_000)).astype(kind)
-    assert load(write(tmp_path, columns(t=times)), size=SIZE).t.tolist() == times.tolist()
+def test_whole_us_are_read_after_a_pause_and_since_1970(tmp_path, kind, start, dtype):
+    times = (start + STEADY + np.where(np.arange(COUNT) < 1500, 0, 3_600_000_000)).astype(dtype)
+    assert load(written(tmp_path, kind, t=times), size=SIZE).t.tolist() == times.tolist()
 
 
-@every_writer
-def test_whole_ms_are_doubted_even_after_one_wrong_time(tmp_path, write):
-    path = write(tmp_path, columns(t=changed(STEADY // 1000 * 4, 10**13, -1)))
+@every_kind
+def test_whole_ms_are_doubted_even_after_one_wrong_time(tmp_path, kind):
+    path = written(tmp_path, kind, t=changed(STEADY // 1000 * 4, 10**13, -1))
     repaired = pytest.warns(TexventWarning, match="was repaired")
     with repaired, pytest.warns(TexventWarning, match="time-unit ms"):
         load(path, size=SIZE, repair=True)

@@ -34,14 +34,8 @@ def find_sweep(forward: FloatArray, backward: FloatArray, shift: int = 0) -> Flo
     Every pixel of the earlier frame whose motion the later frame confirms, and that shows something
     else there, notes its flow in the pixels along its path whose own flows differ. The longest
     flow counts.
-
-    Args:
-        forward: [h, w, 2] px.
-        backward: [h, w, 2] px.
-        shift: 0 where a vector stands for a pixel, 1 for 2×2: pixels above are then those.
-
-    Returns:
-        [h, w, 2] px, 0 where nothing does so.
+    Fields are [h, w, 2] px, 0 where nothing passes. `shift` is 0 where a vector stands for a
+    pixel, 1 where it stands for 2×2.
     """
     kind, (height, width, _) = forward.dtype.type, forward.shape
     sweep, scale = np.zeros_like(forward), kind(0.5**shift)
@@ -70,14 +64,7 @@ def find_sweep(forward: FloatArray, backward: FloatArray, shift: int = 0) -> Flo
 def choose_paths(
     forward: FloatArray, backward: FloatArray, position: float, shift: int = 0
 ) -> FloatArray:
-    """The path of every vector at an instant, [h, w, 2] px from the earlier to the later frame.
-
-    Args:
-        forward: flow from first to second, [h, w, 2] px.
-        backward: flow from second to first, [h, w, 2] px.
-        position: τ, 0 = first, 1 = second, of the flows' type.
-        shift: of `find_sweep`.
-    """
+    """The path of every vector at an instant, [h, w, 2] px from the earlier to the later frame."""
     paths, scale = forward - position * (forward + backward), forward.dtype.type(0.5**shift)
     sweep = find_sweep(forward, backward, shift)
     for y, x in np.ndindex(paths.shape[:2]):
@@ -158,21 +145,11 @@ def sample_along(
 ) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
     """Samples of an image at displaced places; places outside take its nearest edge.
 
-    Along an axis, between pixels p1 and p2 with p0 and p3 beside them, a sample is the mean of the
-    parabolas through p0, p1, p2 and through p1, p2, p3: `p1 + u (p2 − p1) − u (1 − u) s`, with the
-    bend `s = (p0 − p1 − p2 + p3) / 4`. In two dimensions the bends of both axes, each mixed
-    linearly along the other one, are taken off the bilinear sample; the result is limited to the
-    range of the four pixels around the place, or two on a line between them. Beyond its edges an
-    image goes on straight.
+    `texvent.pairs.sampling` has the formula. Beyond its edges an image goes on straight.
 
-    Args:
-        image: [H, W].
-        flow: [H, W, 2], or half as many rows and columns.
-        shift: of each pixel's place, [H, W, 2] as (x, y), px.
-
-    Returns:
-        The image there, the flow of the nearest pixel, and whether the place lies inside the image,
-        whose pixels reach half a pixel past their centres.
+    `flow` has as many rows and columns, or half as many; `shift` is that of each pixel's place, px.
+    Returns the image there, the flow of the nearest pixel, and whether the place lies inside the
+    image, whose pixels reach half a pixel past their centres.
 
     Source: the piecewise parabolic interpolator of Erup, Gardner and Harris (IEEE Transactions on
         Communications 41, 1993) with α = 1/4, which gives parabolas exactly. The sum of both axes
@@ -206,15 +183,7 @@ def sample_along(
 
 
 def find_bends(image: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """How far brightness between two neighbours bends, for `sample_along`.
-
-    Args:
-        image: [H, W].
-
-    Returns:
-        Between each pixel and its right neighbour, and between each and the one below, [H, W] each;
-        unused where there is no neighbour.
-    """
+    """How far brightness bends between each pixel and its right, and its lower neighbour."""
     return _find_bends_along(image), _find_bends_along(image.T).T
 
 
@@ -239,17 +208,6 @@ def warp_between(
 
     Everything is computed in the type of the frames; in float32, the order of the operations is
     part of the definition.
-
-    Args:
-        first: the earlier frame, [H, W], intensity.
-        second: the later frame, [H, W], intensity.
-        forward: flow from first to second as (x, y), px: [H, W, 2], or half as many rows and
-            columns (rounded up), a vector for each 2×2 px.
-        backward: flow from second to first, the same.
-        position: τ, 0 = first, 1 = second.
-
-    Returns:
-        [H, W], intensity.
 
     Where both flows agree, the path is (1 − τ) times the one minus τ times the other.
 

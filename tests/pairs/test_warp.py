@@ -1,10 +1,14 @@
-"""The warping kernel: hand-computed cases, and the compiled one against its definition."""
+"""Warping, its paths and samples: hand-computed cases; compiled, they equal their definitions."""
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+from tests.examples import examples
 from tests.pairs import reference
 
-from texvent.pairs import warping
+from texvent.pairs import contested_paths, warping
 
 
 def warp_between(*arrays):
@@ -12,8 +16,9 @@ def warp_between(*arrays):
     return warping.warp_pair(warping.prepare_pair(*arrays[:-1], arrays[-1:]), 0, 1)[0]
 
 
-KERNELS = [reference.warp_between, warp_between]
-kernels = pytest.mark.parametrize("warp", KERNELS, ids=["reference", "cpu"])
+kernels = pytest.mark.parametrize(
+    "warp", [reference.warp_between, warp_between], ids=["reference", "cpu"]
+)
 
 
 def constant_flow(shape, x, y=0.0):
@@ -81,3 +86,130 @@ def test_a_flow_that_is_no_number_does_no_harm():
     assert warp_between(frame, frame, flow, flow, 0.5).shape == (4, 5)
     flow = constant_flow((4, 5), 1e30)
     np.testing.assert_array_equal(warp_between(frame, frame, flow, flow, 0.5), frame)
+
+
+def ball_flows(step, size=3, shape=(9, 24), x=2):
+    """Flows of a small thing from column x on that moves right before a ground at rest."""
+    forward, backward = np.zeros((2, *shape, 2), np.float32)
+    forward[3:6, x : x + size] = step, 0
+    backward[3:6, x + step : x + step + size] = -step, 0
+    return forward, backward
+
+
+@pytest.mark.parametrize("find", [reference.find_sweep, contested_paths.find_sweep])
+def test_the_sweep_is_what_a_small_thing_passes_and_covers_in_neither_frame(find):
+    sweep = find(*ball_flows(12), 0)
+    # In columns 2 to 4 it is at first, in 14 to 16 at last; it passes 5 to 13.
+    assert (sweep[3:6, 5:14] == (12, 0)).all()
+    assert not sweep[:, :5].any()
+    assert not sweep[:, 14:].any()
+
+
+@pytest.mark.parametrize("find", [reference.find_sweep, contested_paths.find_sweep])
+def test_a_path_along_the_edge_stays_in_the_image(find):
+    forward, backward = np.zeros((2, 3, 24, 2), np.float32)
+    for row, slope in ((0, -0.4), (2, 0.4)):
+        forward[row, 2], backward[row, 14] = (12, slope), (-12, -slope)
+    sweep = find(forward, backward, 0)
+    np.testing.assert_allclose(sweep[0, 3:14], np.tile(np.float32([12, -0.4]), (11, 1)))
+    assert not sweep[1].any()
+
+
+@pytest.mark.parametrize("find", [reference.find_sweep, contested_paths.find_sweep])
+@pytest.mark.parametrize("backward", [-12, 0])
+def test_nothing_sweeps_where_all_moves_or_the_later_frame_contradicts(find, backward):
+    forward = np.broadcast_to(np.float32([12, 0]), (9, 24, 2)).copy()
+    other = np.broadcast_to(np.float32([backward, 0]), (9, 24, 2)).copy()
+    assert not find(forward, other, 0).any()
+
+
+@kernels
+@pytest.mark.parametrize("position", [0.25, 0.5, 0.75])
+def test_a_small_fast_thing_is_where_it_is_and_nowhere_else(warp, position):
+    ground = np.full((9, 24), 40, np.float32)
+    first, second = ground.copy(), ground.copy()
+    first[3:6, 2:5] = 200
+    second[3:6, 14:17] = 200
+    got = warp(first, second, *ball_flows(12), position)
+    there = ground.copy()
+    there[3:6, 2 + round(12 * position) : 5 + round(12 * position)] = 200
+    np.testing.assert_allclose(got, there, atol=1e-3)
+
+
+@examples(15)
+@given(
+    st.integers(0, 999),
+    st.sampled_from([(1, 1), (5, 9), (16, 21)]),
+    st.sampled_from([0, 1]),
+    st.floats(0.01, 0.99),
+)
+def test_compiled_paths_equal_their_definition(seed, shape, shift, position):
+    rng = np.random.default_rng(seed)
+    vectors = tuple(side + shift >> shift for side in shape)
+    forward, backward = rng.normal(0, 4, (2, *vectors, 2)).astype(np.float32)
+    forward[rng.random(vectors) < 0.5] = (5, 1)
+    backward[rng.random(vectors) < 0.5] = (-5, -1)
+    sweep = contested_paths.find_sweep(forward, backward, shift)
+    expected = reference.find_sweep(forward, backward, shift)
+    np.testing.assert_array_equal(sweep if sweep.size else np.zeros_like(forward), expected)
+    images = rng.uniform(0, 255, (2, *shape)).astype(np.float32)
+    arguments = *images, forward, backward, position
+    np.testing.assert_array_equal(warp_between(*arguments), reference.warp_between(*arguments))
+
+
+LEVELS = st.integers(0, 255)
+SIXTEENTHS = st.integers(-48, 48)
+
+
+def sample(image, x, y=0.0):
+    """Samples of the whole image, displaced by (x, y) px."""
+    shift = np.broadcast_to(np.array([x, y], image.dtype), (*image.shape, 2))
+    return reference.sample_along(image, np.zeros_like(shift), shift)[0]
+
+
+def images(least=1):
+    shapes = st.tuples(st.integers(least, 6), st.integers(least, 8))
+    return shapes.flatmap(lambda shape: arrays(np.float32, shape, elements=LEVELS))
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_samples_by_hand(turned):
+    # The slope changes by 0 at 10 and by (10 − 20) + (60 − 20) = 30 at 20, and by 0 at the border.
+    # So the bend is 7.5 between 10 and 20, and between 20 and 60: a sample is 7.5 / 4 lower at a
+    # half, 7.5 · 3/16 at a quarter.
+    image = np.array([[0.0, 10.0, 20.0, 60.0]])
+
+    def look(x):
+        return sample(image.T, 0.0, x).T if turned else sample(image, x)
+
+    np.testing.assert_allclose(look(0.5)[0], [5.0, 13.125, 38.125, 60.0])
+    np.testing.assert_allclose(look(0.25)[0, 1], 11.09375)
+    np.testing.assert_allclose(look(-0.75)[0, 2], 11.09375)
+
+
+def test_a_sample_stays_in_the_range_of_the_pixels_around_it():
+    # The parabolas through 0, 50, 50 and 50, 50, 0 reach 56.25 between both.
+    np.testing.assert_array_equal(sample(np.array([[0.0, 50.0, 50.0, 0.0]]), 0.5)[0, 1], 50.0)
+
+
+def test_parabolas_are_given_exactly_away_from_the_border():
+    y, x = np.mgrid[:9, :9].astype(np.float64)
+    image = x * x + 3 * y * y + 2 * x + 7 * y + 5
+    wanted = (x + 0.3) ** 2 + 3 * (y + 0.6) ** 2 + 2 * (x + 0.3) + 7 * (y + 0.6) + 5
+    np.testing.assert_allclose(sample(image, 0.3, 0.6)[1:-2, 1:-2], wanted[1:-2, 1:-2])
+
+
+@given(image=images(), x=st.integers(-3, 3), y=st.integers(-3, 3))
+def test_whole_pixels_give_the_pixels(image, x, y):
+    rows = np.clip(np.arange(image.shape[0]) + y, 0, image.shape[0] - 1)
+    columns = np.clip(np.arange(image.shape[1]) + x, 0, image.shape[1] - 1)
+    np.testing.assert_array_equal(sample(image, x, y), image[rows][:, columns])
+
+
+@given(along=st.integers(-9, 9), down=st.integers(-9, 9), x=SIXTEENTHS, y=SIXTEENTHS)
+def test_ramps_are_given_exactly(along, down, x, y):
+    row, column = np.mgrid[:5, :7].astype(np.float32)
+    image = 128 + along * column + down * row
+    column = np.clip(column + np.float32(x / 16), 0, 6)
+    row = np.clip(row + np.float32(y / 16), 0, 4)
+    np.testing.assert_array_equal(sample(image, x / 16, y / 16), 128 + along * column + down * row)

@@ -64,20 +64,6 @@ def test_the_velocity_is_the_same_wherever_the_pattern_is_and_whenever(velocity,
         np.testing.assert_array_equal(find_velocity(moved), found)
 
 
-@pytest.mark.parametrize("velocity", [(150, -60), (-700, 25), (20, 400), (0, 0)])
-def test_mirrored_and_transposed_events_have_the_mirrored_velocity(velocity):
-    events = moving_points(velocity)
-    x, y = find_velocity(events)
-    square = SensorSize(120, 120)
-    transposed = EventStream(events.y, events.x, events.t, events.p, square)
-    for turned, expected in (
-        (events.flip("x"), (-x, y)),
-        (events.flip("y"), (x, -y)),
-        (transposed, (y, x)),
-    ):
-        assert find_velocity(turned) == pytest.approx(expected, abs=PIXEL / 4)
-
-
 def test_of_equally_sharp_motions_the_slowest_is_found():
     one_pixel = EventStream([5] * 200, [5] * 200, [7] * 200, [1] * 200, SIZE)
     assert find_velocity(one_pixel).tolist() == [0, 0]

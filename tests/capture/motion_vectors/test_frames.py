@@ -48,20 +48,10 @@ def test_arrays_of_one_field_per_frame(dtype):
     assert (motions[2].depth.dtype, motions[2].instance.dtype) == (np.float32, np.int32)
 
 
-def test_arrays_of_one_field_per_pair():
-    check_exact(opened({"motion": FORWARD[:-1], "motion_back": BACKWARD[1:]}))
-
-
 def test_one_direction_is_enough():
     check_exact(opened({"motion": FORWARD}), backward=False)
     check_exact(opened({"motion": BACKWARD}, motion_convention="backward"), forward=False)
     check_exact(opened({"motion_back": BACKWARD}), forward=False)
-
-
-def test_half_resolution():
-    film = FILM.repeat(2, axis=1).repeat(2, axis=2)
-    motions = [frame.motion for frame in opened({"motion": FORWARD}, film=film)]
-    np.testing.assert_allclose(motions[0].forward, 2 * FORWARD[0].repeat(2, 0).repeat(2, 1), 1e-6)
 
 
 @pytest.mark.parametrize("name", ["npy", "npz"])

@@ -1,6 +1,7 @@
-"""Options that say how an event file is to be read, in every command that shows or writes one."""
+"""Options that say how an event file is to be read, in every command; figures of `info`."""
 
 import dataclasses
+import itertools
 import json
 from itertools import product
 from pathlib import Path
@@ -11,7 +12,10 @@ import pytest
 from tests.cli.running import run
 
 from texvent.cli.event_files.event_file_options import FileFactOptions
+from texvent.cli.event_files.info import describe_events
+from texvent.event_packets import EventPackets
 from texvent.events import EventStream
+from texvent.sensor import SensorSize
 
 COMMANDS = {
     "info": "info {} --json",
@@ -85,3 +89,16 @@ def test_a_file_read_as_is_stated_is_the_usual_one(command, option, tmp_path, mo
     assert stated == usual
     if (command, option) != ("validate", "time_unit"):  # which judges no times
         assert outcome(file, "" if option == "sensor" else "--sensor 16x12") != stated
+
+
+@pytest.mark.parametrize("first_us", [-500_000, 0, 700])
+@pytest.mark.parametrize("cuts", [(), (1, 60), (99,)])
+def test_the_figures_are_those_of_all_packets_together(first_us, cuts):
+    t = first_us + np.arange(100) * 20_000
+    events = EventStream.from_columns(t * 0, t * 0, t, t * 0 + 1, size=SensorSize(4, 3))
+    edges = (0, *cuts, 100)
+    packets = (events[a:b] for a, b in itertools.pairwise(edges))
+    facts = describe_events(EventPackets(packets, events.size, {}))
+    assert (facts["events"], facts["on_share"]) == (100, 1.0)
+    assert (facts["first_us"], facts["last_us"]) == (first_us, first_us + 1_980_000)
+    assert (facts["seconds"], facts["events_per_second"]) == (1.98, 51)

@@ -43,20 +43,6 @@ def test_the_layout_is_that_in_which_every_address_is_a_pixel(tmp_path, header, 
         assert not codec_that_reads(path).side_data(path), "v2e writes events alone"
 
 
-@pytest.mark.parametrize(
-    ("chip", "size", "address"),
-    [
-        ("ch.unizh.ini.jaer.chip.retina.DVS640", (640, 480), (479 - 20) << 11 | (639 - 10) << 1),
-        ("eu.seebetter.ini.chips.davis.DVS240", (240, 180), (179 - 20) << 22 | (239 - 10) << 12),
-    ],
-)
-def test_a_dvs_of_another_size_has_not_the_layout_of_a_dvs128(tmp_path, chip, size, address):
-    header = f"#!AER-DAT2.0\r\n# AEChip: {chip}\r\n".encode()
-    events = load(write(tmp_path / "e.aedat", header, np.array([address]), np.array([7])))
-    assert events.size == size
-    assert (events.x.tolist(), events.y.tolist(), events.p.tolist()) == ([10], [20], [0])
-
-
 def test_addresses_that_are_no_pixels_are_counted(tmp_path, monkeypatch):
     events = random_events(300, SensorSize(640, 480))
     address = v2e_addresses(events)

@@ -2,6 +2,7 @@ import errno
 import json
 import os
 import sys
+from pathlib import Path
 
 import h5py
 import numpy as np
@@ -16,6 +17,8 @@ from texvent.events import EventStream
 from texvent.io import block_writer
 from texvent.io.files import load, open_events, save
 from texvent.io.hdf5 import dsec
+from texvent.io.hdf5.event_utils import save_with_frames
+from texvent.io.hdf5.storage import DeferredErrorFile
 from texvent.sensor import SensorSize
 
 from ..format_cases import random_events
@@ -190,4 +193,60 @@ def test_a_disk_that_fills_up_while_writing_leaves_nothing(tmp_path, monkeypatch
     with pytest.raises(OutputError, match="the disk is full") as caught:
         save(tmp_path / "events.h5", at_times(*range(5000)))
     assert "\n" not in str(caught.value)
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_failed_write_is_remembered_and_ends_writing(tmp_path, monkeypatch):
+    def refuse(*_: object) -> int:
+        raise OSError(errno.ENOSPC, "full")
+
+    path = tmp_path / "file.bin"
+    path.touch()
+    with DeferredErrorFile(path) as file:
+        file.write(b"ab")
+        monkeypatch.setattr(os, "write", refuse)
+        assert file.write(b"cd") == 2
+        monkeypatch.undo()
+        assert file.write(b"ef") == 2
+        file.truncate()
+        file.seek(0)
+        found = bytearray(6)
+        assert file.readinto(found) == 6
+        assert found == b"ab\0\0\0\0"
+        with pytest.raises(OSError, match="full"):
+            file.raise_failure()
+    assert path.read_bytes() == b"ab"
+
+
+EVENTS = EventStream.from_columns(
+    [3, 4, 5], [1, 2, 0], [70, 80, 2_000_000], [1, 0, 1], size=SensorSize(9, 3)
+)
+
+
+def test_events_and_frames_are_in_one_file(tmp_path: Path) -> None:
+    path = tmp_path / "e.h5"
+    colour = np.zeros((3, 9, 3), np.uint8)
+    colour[..., 0] = 200
+    images = [(75, np.full((3, 9), 7, np.uint8)), (80, colour)]
+    assert save_with_frames(path, EventPackets([EVENTS], EVENTS.size), images) == 2
+    with h5py.File(path) as file:
+        assert file["events/ts"][()].tolist() == [70e-6, 80e-6, 2.0]
+        assert file["events/ps"].dtype == bool
+        facts = {
+            name: file.attrs[name] for name in ("num_events", "num_pos", "num_neg", "num_imgs")
+        }
+        assert facts == {"num_events": 3, "num_pos": 2, "num_neg": 1, "num_imgs": 2}
+        assert file.attrs["sensor_resolution"].tolist() == [3, 9]
+        assert (file.attrs["t0"], file.attrs["tk"]) == (70e-6, 2.0)
+        first, second = file["images/image000000000"], file["images/image000000001"]
+        assert (first.attrs["timestamp"], first.attrs["event_idx"]) == (75e-6, 1)
+        assert second.attrs["event_idx"] == 1, "an event at the time of the frame comes after it"
+        assert second[0, 0].tolist() == [0, 0, 200], "BGR"
+    assert load(path).equals(EVENTS)
+
+
+def test_a_frame_of_another_sensor_leaves_no_file(tmp_path: Path) -> None:
+    images = [(75, np.zeros((4, 9), np.uint8))]
+    with pytest.raises(InputError, match="frame 0 is 9x4, the events are 9x3"):
+        save_with_frames(tmp_path / "e.h5", EventPackets([EVENTS], EVENTS.size), images)
     assert not list(tmp_path.iterdir())

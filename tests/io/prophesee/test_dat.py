@@ -13,12 +13,6 @@ def record(x: int, y: int, t: int, p: int) -> int:
     return (p << 28 | y << 14 | x) << 32 | t
 
 
-def test_records_built_by_hand_from_the_published_layout(tmp_path: Path) -> None:
-    rows = [(0, 0, 5, 1), (1279, 719, 5, 0), (3, 4, 2**32 - 1, 1)]
-    path = write_words(tmp_path, "dat", [record(*row) for row in rows])
-    assert events_of(load(path)) == rows
-
-
 def test_the_bytes_written_are_those_of_the_description(tmp_path: Path) -> None:
     events = at_times(5, 2**32 - 1)
     data = save(tmp_path / "e.dat", events).read_bytes()

@@ -16,7 +16,14 @@ from texvent.io.files import codec_for, codec_that_reads, load, open_events, sav
 from texvent.io.prophesee import text_header
 from texvent.io.prophesee.evt import SAMPLE, Evt2Codec, Evt3Codec, Evt21Codec
 
-from .prophesee_files import EXTENSIONS, FORMATS, at_times, row_bursts, write_words
+from .prophesee_files import (
+    EXTENSIONS,
+    FORMATS,
+    at_times,
+    events_of,
+    row_bursts,
+    write_words,
+)
 from .slow_words import decode_evt2, decode_evt3, decode_evt21
 
 EVT = ("evt2", "evt21", "evt3")
@@ -43,6 +50,12 @@ def test_a_lone_wrong_high_time_is_damage_not_a_turn(tmp_path, format, bits, bet
         load(path)
     with pytest.warns(TexventWarning, match="stray times: 1"):
         assert load(path, repair=True).t.tolist() == times
+
+
+def test_a_wrapped_counter_of_evt2_is_unrolled(tmp_path):
+    words = [0x8FFF_FFFF, 0x0FC0_0000, 0x8000_0000, 0x0000_0000, 0x8FFF_FFFF, 0x8000_0001, 0x0]
+    times = load(write_words(tmp_path, "evt2", words)).t.tolist()
+    assert times == [2**34 - 1, 2**34, 2 * 2**34 + 64]
 
 
 ANY = {
@@ -78,6 +91,37 @@ def test_any_words_mean_what_the_slow_decoder_says(format, codec, slow, dtype, d
         columns = decoder.decode(part)
         rows += zip(*(columns[name].tolist() for name in "xytp"), strict=True)
     assert rows == slow(array.tobytes())
+
+
+WORDS = [
+    0x1 << 60 | 0b1,  # before any TIME_HIGH: no time, left out
+    0x8 << 60 | 3 << 32,  # TIME_HIGH: 3 · 64 µs
+    0x1 << 60 | 5 << 54 | 1248 << 43 | 719 << 32 | 0x8000_0001,  # ON at x 1248 and 1279
+    0xA << 60,  # a trigger
+    0x0 << 60 | 63 << 54 | 32 << 43 | 4 << 32 | 0b1010,  # OFF at x 33 and 35
+]
+MEANING = [(1248, 719, 197, 1), (1279, 719, 197, 1), (33, 4, 255, 0), (35, 4, 255, 0)]
+
+
+def exchange_halves(word: int) -> int:
+    return (word & 0xFFFF_FFFF) << 32 | word >> 32
+
+
+@pytest.mark.parametrize(
+    ("header", "legacy"),
+    [
+        ("% format EVT21;endianness=legacy;height=720;width=1280\n% end\n", True),
+        ("% endianness legacy\n% evt 2.1\n% geometry 1280x720\n% end\n", True),
+        ("% endianness little\n% evt 2.1\n% geometry 1280x720\n% end\n", False),
+        ("% evt 2.1\n% geometry 1280x720\n% integrator_name Prophesee\n% system_ID 49\n", True),
+        ("% evt 2.1\n% geometry 1280x720\n% integrator_name Prophesee\n% system_ID 55\n", False),
+        ("% evt 2.1\n% geometry 1280x720\n% integrator_name Other\n% system_ID 49\n", False),
+        ("% evt 2.1\n% geometry 1280x720\n% end\n", False),
+    ],
+)
+def test_the_header_of_evt21_decides_which_half_of_a_word_comes_first(tmp_path, header, legacy):
+    words = [exchange_halves(word) if legacy else word for word in WORDS]
+    assert events_of(load(write_words(tmp_path, "evt21", words, header=header))) == MEANING
 
 
 TYPES = {"evt2": {0, 1, 8, 10, 14, 15}, "evt21": {0, 1, 8, 10, 14, 15}}

@@ -2,7 +2,7 @@
 
 `evt3` (Rust, MIT) knows EVT3; `eventcv` (Rust, Apache-2.0) knows EVT2, EVT3 and DAT, and writes
 EVT2 and DAT. Both are in the extra `dev`, for the machines they are built for. No reader on the
-registry that may be depended on knows EVT2.1 or ECF: `tests/io/prophesee/test_evt21.py` and
+registry that may be depended on knows EVT2.1 or ECF: `tests/io/prophesee/test_evt.py` and
 `tests/io/prophesee/test_ecf_chunks.py` hold those to the published descriptions.
 """
 

@@ -27,11 +27,6 @@ def test_rows_of_the_data_set_are_read_to_the_microsecond(tmp_path):
     assert events.p.tolist() == [0, 1, 1]
 
 
-def test_the_size_is_asked_for_and_never_guessed(tmp_path):
-    with pytest.raises(InputError, match=r"does not store the sensor size; give it \(size="):
-        load(write(tmp_path, RECORDED))
-
-
 def test_whole_microseconds_are_written_exactly(tmp_path):
     times = [0, 1, 999_999, 1_000_000, 1_790_000_000_123_456]
     for late in ([], [5_000_000_000_000_001, 2**33 * 1_000_000 + 7, 2**63 - 1]):

@@ -1,4 +1,4 @@
-"""Side work ends with its run: a normal end waits for it, an interrupted one for some seconds."""
+"""Work in other threads: it ends with its run, and files are written in order, errors raised."""
 
 import subprocess
 import sys
@@ -10,6 +10,7 @@ import pytest
 from texvent.errors import InputError, warn, warnings_to
 from texvent.runtime.work.engines import attempt
 from texvent.runtime.work.side_work import _running, begin_side_work, finish_side_work
+from texvent.runtime.work.worker_threads import DEPTH, BackgroundWriter
 
 SCRIPT = """
 import time
@@ -88,3 +89,69 @@ def test_work_of_one_key_is_done_once_at_a_time_however_many_threads_begin_it():
     finish_side_work("key")
     assert len(done) == 50
     assert not _running
+
+
+class Sink:
+    """Takes numbers; refuses one of them."""
+
+    def __init__(self, refused=None):
+        self.taken = []
+        self.threads = set()
+        self.refused = refused
+
+    def append(self, number):
+        if number == self.refused:
+            raise OSError(28, "disk full")
+        self.taken.append(number)
+        self.threads.add(threading.current_thread())
+
+
+def write(sink, numbers):
+    with BackgroundWriter(sink) as behind:
+        for number in numbers:
+            behind.append(number)
+
+
+def test_everything_arrives_in_order_from_one_other_thread():
+    sink = Sink()
+    write(sink, range(500))
+    assert sink.taken == list(range(500))
+    assert len(sink.threads) == 1
+    assert threading.main_thread() not in sink.threads
+
+
+@pytest.mark.parametrize("refused", [0, 3, 99])
+def test_an_error_of_the_sink_is_raised_where_the_work_is(refused):
+    sink = Sink(refused)
+    with pytest.raises(OSError, match="disk full"):
+        write(sink, range(100))
+    assert not [one for one in threading.enumerate() if one.name.startswith("texvent-writer")]
+
+
+def test_an_error_of_the_sink_stops_the_work_soon():
+    numbers = iter(range(10_000))
+    with pytest.raises(OSError, match="disk full"):
+        write(Sink(refused=0), numbers)
+    assert next(numbers) <= DEPTH + 2
+
+
+def test_an_error_in_the_block_drops_what_waits():
+    taken, released = [], threading.Event()
+
+    class Stuck:
+        def append(self, number):
+            released.wait()
+            taken.append(number)
+
+    def work():
+        with BackgroundWriter(Stuck()) as behind:
+            for number in range(DEPTH):
+                behind.append(number)
+            # Called when it is dropped.
+            behind._queue[-1].add_done_callback(lambda _: released.set())
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        work()
+    # Only the one that was being written.
+    assert taken == [0]

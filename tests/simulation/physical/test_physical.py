@@ -1,11 +1,15 @@
 """The physical model: ideal pixels against closed forms, and any options at all."""
 
+import dataclasses
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from tests.examples import examples
 from tests.simulation.references import in_both_forms
 
+from texvent.sensor import SENSORS
+from texvent.simulation.physical.cameras import CAMERAS, PRESETS
 from texvent.simulation.physical.config import PhysicalConfig
 from texvent.simulation.physical.simulator import PhysicalSimulator
 
@@ -103,3 +107,12 @@ def test_eq4_counts_in_the_gamma_coded_scale():
     )
     assert simulator.contrast_threshold == pytest.approx(0.2 / 2.2)
     assert simulator.balance == pytest.approx(255 * (100 / 255) ** (1 / 2.2))
+
+
+@pytest.mark.parametrize("name", CAMERAS)
+def test_a_preset_is_the_constants_that_have_a_source(name: str) -> None:
+    camera = CAMERAS[name]
+    assert SENSORS[name].description.split()[0] in camera.description
+    assert all(len(one.reference) > 20 for one in camera.constants)
+    values = {one.option: one.value for one in camera.constants}
+    assert PRESETS[name] == dataclasses.replace(PhysicalConfig(), **values)

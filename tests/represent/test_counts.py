@@ -1,3 +1,5 @@
+"""Histograms, and refusals of voxel grids."""
+
 import math
 
 import numpy as np
@@ -6,6 +8,7 @@ import pytest
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.represent.histogram import histogram_2d, histogram_3d, stacked_histogram
+from texvent.represent.voxel_grid import voxel_dsec, voxel_zhu
 from texvent.sensor import SensorSize
 
 from .definitions import SMALL
@@ -36,3 +39,16 @@ def test_counts_stop_at_the_cutoff_instead_of_wrapping():
     events = EventStream([0] * 300, [0] * 300, [7] * 300, [1] * 300, SensorSize(3, 2))
     assert stacked_histogram(events, cutoff=255)[10, 0, 0] == 255
     assert stacked_histogram(events).sum() == 10
+
+
+def test_a_rectify_map_of_another_size_or_with_nan_is_refused():
+    with pytest.raises(InputError, match=r"shape \[4, 3, 2\]; a 4x3 sensor needs \[3, 4, 2\]"):
+        voxel_dsec(EventStream.empty(SMALL), rectify_map=np.zeros((4, 3, 2)))
+    with pytest.raises(InputError, match="every pixel needs a finite place"):
+        voxel_dsec(EventStream.empty(SMALL), rectify_map=np.full((3, 4, 2), np.nan))
+
+
+def test_a_sum_that_could_overflow_is_refused():
+    events = EventStream([0, 0], [0, 0], [0, 2**62], [1, 1], SMALL)
+    with pytest.raises(InputError, match="too much for one voxel grid"):
+        voxel_zhu(events)
