@@ -75,6 +75,19 @@ def test_hot_pixels_are_as_many_and_as_hot_as_stated():
     assert len(events) == pytest.approx(mean, abs=poisson_interval(mean))
 
 
+@pytest.mark.parametrize("share", [0.0, 0.2, 1.0])
+@pytest.mark.parametrize(
+    "source",
+    [{"hot_pixel_fraction": 0.5, "hot_pixel_rate_hz": 40.0}, {"noise_scale": 20.0}],
+    ids=lambda one: next(iter(one)),
+)
+def test_random_events_are_on_in_the_stated_share(source, share):
+    simulator = noisy(noise_on_fraction=share, **{"noise_scale": 0.0, **source})
+    events = run(simulator, static(3.5, fps=24, seconds=1.0, shape=(20, 30)))
+    assert len(events) > 5000
+    assert events.p.mean() == pytest.approx(share, abs=5 * math.sqrt(share * (1 - share) / 5000))
+
+
 # The sensor.
 
 

@@ -56,6 +56,12 @@ def test_shares_of_a_map_are_of_the_mean_of_their_own_polarity(path, ratio):
                 assert found[x] == pytest.approx(share * means[x], rel=1e-3)
 
 
+def test_pixels_leak_as_often_as_stated_whatever_their_thresholds(path):
+    frames = [Frame(np.full((1, 4), 80.0), t_us) for t_us in (0, 2_500_000, 5_100_000)]
+    events = run(clean(threshold_map=path, leak_rate_hz=2.0, leak_rate_decades=0.0), frames)
+    assert np.bincount(events.x, minlength=4).tolist() == [10] * 4
+
+
 def test_pixels_that_were_not_measured_keep_what_is_drawn(path):
     def thresholds(**options):
         simulator = PhysicalSimulator(PhysicalConfig(sensor_seed=3, **options))
