@@ -19,8 +19,12 @@ from texvent_scenes.models.nouns import NOUNS, VARIANTS
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.staging.compose import ComposedScene, compose_scene
 
-_ALIKE = ((None, "day", "sunny", "overcast"), ("night", "moonlight"), ("aerial", "top"),
-          ("rain", "storm"))  # fmt: skip
+_ALIKE = (
+    *((one, "day") for one in (None, "sunny", "overcast", "stormy", "morning", "afternoon")),
+    *((one, "sunny") for one in (None, "morning", "afternoon", "dusk", "dawn")),
+    *((one, "overcast") for one in (None, "stormy", "morning", "afternoon")),
+    ("night", "moonlight"), ("aerial", "top"), ("rain", "storm"),
+)  # fmt: skip
 """Lights, weathers and views of which words say the same."""
 
 
@@ -93,7 +97,7 @@ def _list_others(words: Sequence[str], description: SceneDescription) -> Iterato
 
 def _are_alike(one: object, other: object) -> bool:
     """Whether two values of a light, a weather, a view or a framing may be of the same picture."""
-    return one == other or any({one, other} <= {*group} for group in _ALIKE)
+    return one == other or any({one, other} == {*pair} for pair in _ALIKE)
 
 
 def _as_said(lines: Sequence[str]) -> tuple[str, ...]:

@@ -258,9 +258,11 @@ class Light:
     """Illumination of the scene."""
 
     kind: Literal[
-        "day", "sunny", "overcast", "dusk", "dawn", "night", "moonlight", "lamp"
+        "day", "sunny", "overcast", "stormy", "morning", "afternoon", "dusk", "dawn", "night",
+        "moonlight", "lamp"
     ] | None = None  # fmt: skip
-    """Time of day or main light source; left out: day, or what the place has."""
+    """Time of day or main light source; left out: day, or what the place has. In the "morning" and
+    the "afternoon" the sun is low; "stormy" is dark clouds."""
     flicker_hz: Hertz | None = None
     """Frequency at which all light is modulated, Hz."""
     wave: Waveform = "sine"
