@@ -154,6 +154,7 @@ def _choose_act(
     done |= _list_played(draft, subjects) if verb.text in _list_performing() else set()
     if verb.text in _list_performing():
         acts[:0] = [VerbSense("person", one) for one in done]
+    acts.sort(key=lambda one: {one.who} != draft.names(subjects))  # a football player dribbles
     acts.sort(key=lambda one: one.kind not in done)  # "swings at a ball": a golfer, a batter
     tools = [one for one in acts if one.who == "person" and _list_tools(one.kind)]
     if act := _act_as_person(draft, tools, subjects, objects, has_object):

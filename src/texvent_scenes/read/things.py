@@ -168,10 +168,12 @@ def _name_thing(draft: SceneDraft, group: Group, head: Token) -> list[int]:
         return _name_members(draft, group, head, members)
     draft.show(head)
     is_plain = not group.modifiers and not group.unknown
-    is_same = bool(known) and group.is_plural == (draft.things[known[-1]]["count"] > 1)
-    if is_same and is_plain and is_again(draft, group, head, known[-1]):
-        draft.last.nearest = known[-1:]  # "the car", where there is one
-        return known[-1:]
+    same = [n for n in known if group.is_plural == (draft.things[n]["count"] > 1)]
+    if len(known) > len(same):  # "the player", of a player and two defenders
+        same = [n for n in same if draft.things[n].get("word", "").endswith(head.text)] or same
+    if same and is_plain and is_again(draft, group, head, same[-1]):
+        draft.last.nearest = same[-1:]  # "the car", where there is one
+        return same[-1:]
     draft.last.nearest = [_add_thing(draft, group, head)]
     return draft.last.nearest
 
