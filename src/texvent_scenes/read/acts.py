@@ -194,6 +194,9 @@ def _act_as_person(
             for token in draft.tokens if act.relation in of_hands else ():
                 if token.nouns & HAND_NOUNS:
                     draft.mark(token, "person")  # all of whom bends down
+            are_hands = {noun for noun, _ in said} <= HAND_NOUNS
+            if are_hands and act.kind in ACTIVITIES and act.relation not in SENT:
+                draft.parts["camera"].setdefault("framing", "close")  # no more is said of whose
             return act
     for one, (noun, count) in zip(things, said, strict=True):
         one |= {"noun": noun, "count": count}
