@@ -18,7 +18,7 @@ from texvent.camera import PosedCamera, project
 from texvent.sensor import SensorSize
 from texvent_scenes.checks.body_boxes import BodyBoxes, body_of
 from texvent_scenes.checks.edges import find_cut_subject, find_merged, list_covering
-from texvent_scenes.checks.limbs import find_tiny
+from texvent_scenes.checks.limbs import find_tiny, list_headless
 from texvent_scenes.checks.looks import find_unlike, is_ball
 from texvent_scenes.checks.phases import (
     find_airborne_meals,
@@ -153,6 +153,8 @@ def find_unseen(
     violations += find_misframed(scene, description, cameras, times, size)
     notes += [*list_hidden(scene, seen, cameras, times, size)]
     notes += list_covering(scene, description, seen, _count_points(size), times, unseen)
+    notes += list_own_walls(scene, description)
+    notes += list_headless(description, scene.actors, cameras, times, size)
     notes += () if description.camera.is_moving else list_departures(scene, cameras, times, size)
     return Unseen(
         tuple(dict.fromkeys(outside)), tuple(dict.fromkeys(small)),

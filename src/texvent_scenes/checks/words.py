@@ -43,7 +43,12 @@ from texvent_scenes.checks.acts import (
     turns,
 )
 from texvent_scenes.checks.body_boxes import BodyBoxes
-from texvent_scenes.checks.camera_ways import is_camera_so, is_macro, is_overtaken
+from texvent_scenes.checks.camera_ways import (
+    is_at_eye_level,
+    is_camera_so,
+    is_macro,
+    is_overtaken,
+)
 from texvent_scenes.checks.grips import handles_by_hand
 from texvent_scenes.checks.looks import has_look
 from texvent_scenes.checks.parts import (
@@ -81,7 +86,7 @@ _DONE = (
     "begin",
 )
 """Length of a clip in which motions get so far that they are judged, s; claims of read motions."""
-_OF_CAMERA = (SEEN, "circle", "camera", "macro")
+_OF_CAMERA = (SEEN, "circle", "camera", "macro", "eye level")
 """Claims that may be made of the camera."""
 _COVERED = 0.6
 """Most distance in the image of what is covered, in half extents of both."""
@@ -322,3 +327,4 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "sit at": _sits_at, "macro": is_macro, "overtaken": is_overtaken, "cover": _covers,
 }  # fmt: skip
 """Kind of claim → its check."""
+    "eye level": is_at_eye_level, "above way": is_above_way, "part": _tells_parts,
