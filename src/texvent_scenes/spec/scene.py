@@ -138,7 +138,8 @@ class SceneObject:
     material: Material | None = None
     """Material of the surface."""
     placement: Placement | None = None
-    """Region of the image ("left", "right", "centre", "far", "near") or the road ("lane")."""
+    """Region of the image ("left", "right", "centre", "far", "near") or the road ("lane"); of what
+    flies, above the road or the water."""
     motions: tuple[Motion, ...] = ()
     """Motions in their order; left out: the usual one where nothing else moves, else rest."""
     relations: tuple[Relation, ...] = ()
