@@ -62,6 +62,8 @@ class Dependence:
     """The words that depend, such as "runs" and "past" of a clause."""
     on: tuple[str, ...]
     """The others: their clause, or what leads to a thing, such as "steep"."""
+    is_staged: bool = False
+    """Whether they depend too on words that are understood and that the staged scene lacks."""
 
 
 @dataclass(frozen=True)

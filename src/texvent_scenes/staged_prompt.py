@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
@@ -19,8 +19,12 @@ from texvent_scenes.models.nouns import NOUNS, VARIANTS
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.staging.compose import ComposedScene, compose_scene
 
-_ALIKE = ((None, "day", "sunny", "overcast"), ("night", "moonlight"), ("aerial", "top"),
-          ("rain", "storm"))  # fmt: skip
+_ALIKE = (
+    *((one, "day") for one in (None, "sunny", "overcast", "stormy", "morning", "afternoon")),
+    *((one, "sunny") for one in (None, "morning", "afternoon", "dusk", "dawn")),
+    *((one, "overcast") for one in (None, "stormy", "morning", "afternoon")),
+    ("night", "moonlight"), ("aerial", "top"), ("rain", "storm"),
+)  # fmt: skip
 """Lights, weathers and views of which words say the same."""
 
 
@@ -64,8 +68,12 @@ def stage(
     claimed = (one for one in sorted(failed) if one not in said.shown)
     lost = (one for one in (*said.shown, *claimed) if one not in shown
             and not re.search(rf"\b{re.escape(one)}\b", told))  # fmt: skip
+    unknown = {*said.not_understood}
+    cut = {one.noun for n, one in enumerate(description.objects) if n not in unseen.gone}
+    lost_words = {one for one in said.shown if one not in shown and not _names(one, cut)}
+    missing = unknown | lost_words | failed
     uncertain = {word for one in description.dependences for word in one.words
-                 if not {*said.not_understood}.isdisjoint(one.on)}  # fmt: skip
+                 if not (missing if one.is_staged else unknown).isdisjoint(one.on)}  # fmt: skip
     report = replace(
         said,
         shown=tuple(one for one in shown if one not in uncertain),
@@ -91,9 +99,14 @@ def _list_others(words: Sequence[str], description: SceneDescription) -> Iterato
             yield word
 
 
+def _names(word: str, nouns: Collection[str]) -> bool:
+    """Whether a word means one of some nouns."""
+    return any(kind == "noun" and value in nouns for kind, value in list_meanings(word))
+
+
 def _are_alike(one: object, other: object) -> bool:
     """Whether two values of a light, a weather, a view or a framing may be of the same picture."""
-    return one == other or any({one, other} <= {*group} for group in _ALIKE)
+    return one == other or any({one, other} == {*pair} for pair in _ALIKE)
 
 
 def _as_said(lines: Sequence[str]) -> tuple[str, ...]:

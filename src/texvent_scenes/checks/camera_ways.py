@@ -9,6 +9,7 @@ import numpy as np
 
 from texvent_scenes.checks.staged_clip import StagedClip
 from texvent_scenes.description import Claim
+from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.camera.subject import choose_main, near_part
 
@@ -23,6 +24,9 @@ _DOWN = -0.7
 _MACRO_M, _HALF = 0.9, 0.5
 """Most width across the image at the subject of a macro or an extreme close-up, m; share of the
 instants at which it is so."""
+_EYES_M, _LEVEL, _UPPER = (0.9, 2.2), 0.26, (0.45, 1.35)
+"""Least and greatest height of what flies at eye level, m; greatest slope of the sight of a level
+camera; its height, in heights of whom it looks at."""
 _LEAST_WAY, _OVER = 0.5, 0.7
 """Way of a camera that goes, and most distance aside of what it goes over, in sizes of that."""
 
@@ -65,6 +69,28 @@ def is_macro(staged: StagedClip, claim: Claim) -> bool:
         depth_m = float((held.mean(axis=0) - camera.position) @ camera.rotation[2])
         widths_m.append(depth_m / camera.focal)
     return bool(np.mean(np.array(widths_m) <= _MACRO_M) >= _HALF)
+
+
+def is_at_eye_level(staged: StagedClip, claim: Claim) -> bool:
+    """Whether what flies ends about as high as eyes are, or the camera looks level at a subject.
+
+    Of who has a face, that is as high as the upper half of the body.
+    """
+    if claim.subject is not None:
+        low, high = _EYES_M
+        ends = [one.middle[-1, 2] for one in staged.own_boxes(claim)]
+        return bool(ends) and all(low <= one <= high for one in ends)
+    cameras = [staged.scene.camera(one) for one in staged.times]
+    is_level = np.mean([abs(one.rotation[2, 2]) <= _LEVEL for one in cameras]) >= _HALF
+    if not (is_level and staged.scene.actors):
+        return bool(is_level)
+    main = choose_main(staged.description, staged.scene.actors)
+    if main.noun.name not in PERSON_NOUNS:
+        return True
+    tops = [main.corners(one)[:, 2].max() for one in staged.times]
+    heights = [one.position[2] for one in cameras]
+    shares = np.array(heights) / np.maximum(tops, 1e-6)
+    return bool(np.mean((shares >= _UPPER[0]) & (shares <= _UPPER[1])) >= _HALF)
 
 
 def _never(off: Float64Array, sight: Float64Array, size_m: Float64Array) -> bool:

@@ -18,18 +18,19 @@ from texvent.camera import PosedCamera, project
 from texvent.sensor import SensorSize
 from texvent_scenes.checks.body_boxes import BodyBoxes, body_of
 from texvent_scenes.checks.edges import find_cut_subject, find_merged, list_covering
-from texvent_scenes.checks.limbs import find_tiny
+from texvent_scenes.checks.limbs import find_tiny, list_headless
 from texvent_scenes.checks.looks import find_unlike, is_ball
 from texvent_scenes.checks.phases import (
     find_airborne_meals,
     find_undone,
+    find_unfinished,
     find_unhurried,
     list_departures,
     list_hidden,
 )
 from texvent_scenes.checks.pictures import find_unshown
 from texvent_scenes.checks.placement import find_misplaced
-from texvent_scenes.checks.places import MOST_FOG, find_near
+from texvent_scenes.checks.places import MOST_FOG, find_near, list_own_walls
 from texvent_scenes.checks.relations import Violation, find_violations
 from texvent_scenes.checks.shots import find_misframed
 from texvent_scenes.checks.staged_clip import is_inside
@@ -152,6 +153,8 @@ def find_unseen(
     violations += find_near(scene, description, cameras, times)
     violations += find_misframed(scene, description, cameras, times, size)
     notes += [*list_hidden(scene, seen, cameras, times, size)]
+    notes += list_own_walls(scene, description)
+    notes += list_headless(description, scene.actors, cameras, times, size)
     notes += list_covering(scene, description, seen, _count_points(size), times, unseen)
     notes += () if description.camera.is_moving else list_departures(scene, cameras, times, size)
     return Unseen(
@@ -270,6 +273,7 @@ def _find_unrealised(
     yield from find_misplaced(description, scene.place, scene.environment(0.0), scene.actors, times)
     yield from find_airborne_meals(description, scene, times)
     yield from find_unhurried(description, scene.actors, times)
+    yield from find_unfinished(description, duration_s)
     yield from find_wet_and_dry(scene, description, duration_s)
     yield from find_unshown(scene, description, [share * duration_s for share in _INSTANTS])
 

@@ -58,9 +58,8 @@ def find_tiny(
     for index, said in enumerate(description.objects):
         kinds = {one.kind for one in said.motions}
         own = [one for one in actors if one.object_index == index]
-        if own and said.noun in PERSON_NOUNS and kinds & _BY_HEAD and not any(
-            is_any_inside(one.anchor("head", time_s)[None, :, 3], camera, size)
-            for one in own for time_s, camera in zip(times, cameras, strict=True)
+        if own and said.noun in PERSON_NOUNS and kinds & _BY_HEAD and not _has_head(
+            own, cameras, times, size
         ):  # fmt: skip
             for kind in sorted(kinds & _BY_HEAD):
                 yield Violation("motion", kind, f"the {said.noun}'s {kind}: its head is cut off")
@@ -74,6 +73,32 @@ def find_tiny(
             for kind in sorted(kinds):
                 line = f"the {said.noun}'s {kind}: too small to be seen ({most:.1f} pixels)"
                 yield Violation("motion", kind, line)
+
+
+def list_headless(
+    description: SceneDescription,
+    actors: Sequence[Actor],
+    cameras: Sequence[PosedCamera],
+    times: Sequence[float],
+    size: SensorSize,
+) -> Iterator[str]:
+    """Notes of people of whom only a part without the head is in the image: who is that?"""
+    for index, said in enumerate(description.objects):
+        own = [one for one in actors if one.object_index == index]
+        if own and said.noun in PERSON_NOUNS - {"person"} and not _has_head(
+            own, cameras, times, size
+        ):  # fmt: skip
+            yield f"the head of the {said.noun} is out of the picture"
+
+
+def _has_head(
+    own: Sequence[Actor], cameras: Sequence[PosedCamera], times: Sequence[float], size: SensorSize
+) -> bool:
+    """Whether some instant has the head of some body in the image."""
+    return any(
+        is_any_inside(one.anchor("head", time_s)[None, :, 3], camera, size)
+        for one in own for time_s, camera in zip(times, cameras, strict=True)
+    )  # fmt: skip
 
 
 def _limb_way(

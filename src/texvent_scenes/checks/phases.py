@@ -15,7 +15,7 @@ from texvent.sensor import SensorSize
 from texvent_scenes.checks.body_boxes import is_any_inside
 from texvent_scenes.checks.relations import Violation
 from texvent_scenes.description import SceneDescription
-from texvent_scenes.models.activities import MOUTH_ACTIVITIES
+from texvent_scenes.models.activities import ACTIVITIES, MOUTH_ACTIVITIES, PERSON_NOUNS
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.rendered_scene import Float64Array, Ground
 from texvent_scenes.spec.scene import SceneObject
@@ -39,6 +39,8 @@ _LEAST_CLIP_S = 1.0
 """Length of a clip, s, in which motions get so far that they are judged."""
 _HURRIED, _STEPS = 0.75, 49
 """Share of a pace from which on it is reached; instants between which speeds are measured."""
+_DONE = 0.7
+"""Share of an act from which on one sees that it is done."""
 _TOLD = 4
 """Points of the image from which on a body is no speck."""
 
@@ -92,6 +94,19 @@ def find_unhurried(
         if motion.kind in PATH_KINDS and max(_fastest(one, times) for one in own) < least_m_s:
             yield Violation("pace", "", f"the {said.noun}'s {motion.kind} at {motion.pace:g} times "
                             "its usual speed: it is slower")  # fmt: skip
+
+
+def find_unfinished(description: SceneDescription, duration_s: float) -> Iterator[Violation]:
+    """Acts with a beginning and an end that are so slow that the clip is over before: "slowly"."""
+    for said in description.objects:
+        is_judged = bool(said.motions) and duration_s >= _LEAST_CLIP_S
+        for phase in schedule(said.motions, duration_s) if is_judged else ():
+            kind, pace = phase.motion.kind, phase.motion.pace
+            act = ACTIVITIES.get(kind) if said.noun in PERSON_NOUNS else None
+            done = (phase.end_s - phase.start_s) * pace * (act.repeats_hz if act else 0.0)
+            if 0.0 < done < _DONE and pace < 1.0:
+                line = f"the {said.noun}'s {kind}: the clip ends before it is done"
+                yield Violation("motion", kind, line)
 
 
 def _fastest(one: Actor, times: Sequence[float]) -> float:

@@ -156,6 +156,16 @@ def find_near(
             yield Violation("placement", "far", f"the {said.noun} in the distance: it is near")
 
 
+def list_own_walls(scene: ComposedScene, description: SceneDescription) -> Iterator[str]:
+    """Notes of windows and doors of a room that stand in it, in a piece of wall of their own."""
+    if not scene.place.is_room:
+        return
+    bodied = {one.object_index for one in scene.actors}
+    for index, said in enumerate(description.objects):
+        if index in bodied and said.noun in nouns_with("in a wall of its own"):
+            yield f"the {said.noun} stands in the room, in a piece of wall of its own"
+
+
 def _share_of_image(corners: Float64Array, camera: PosedCamera) -> float:
     """Share of the image's height that a box takes, 1 where some of it is behind the camera."""
     y, depth = project(camera, _SIZE, corners)[:, 1:].T

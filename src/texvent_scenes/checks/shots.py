@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from texvent.camera import PosedCamera, project
 from texvent.sensor import SensorSize
 from texvent_scenes.checks.relations import Violation
 from texvent_scenes.description import SceneDescription
+from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.shapes import bounds, moved
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor
@@ -53,12 +55,8 @@ def find_misframed(
     """
     shot = description.camera
     main = choose_main(description, scene.actors) if scene.actors else None
-    if shot.framing == "close" and main is not None:
-        held = near_part(main, "close", np.array(times))
-        shares = [_extent(*each, size) for each in zip(held, cameras, strict=True)]
-        if np.mean(np.array(shares) >= _CLOSE) < _HALF:
-            line = f"{_SAID['close']} of the {main.noun.name}: it is small in the image"
-            yield Violation("framing", "close", line)
+    if main is not None:
+        yield from _find_wrong_size(main, shot.framing or "", cameras, times, size)
     rule = _VIEWS.get(shot.view or "")
     has_view = [rule is None or rule(*each, main) for each in zip(cameras, times, strict=True)]
     if np.mean(has_view) < _HALF:
@@ -96,6 +94,63 @@ def _keeps_inside(
     x, y, depth = points.T
     inside = (depth > 0.0) & (x >= 0.0) & (x < size.width) & (y >= 0.0) & (y < size.height)
     return bool(np.mean(inside) >= _MOST)
+
+
+def _shares(
+    body: Actor, cameras: Sequence[PosedCamera], times: Sequence[float], size: SensorSize
+) -> Float64Array:
+    """[t, 2] Share of the image's width and height that the box of a body extends over."""
+    boxes = [project(camera, size, body.corners(time_s))
+             for camera, time_s in zip(cameras, times, strict=True)]  # fmt: skip
+    return np.array([np.ptp(one[:, :2], axis=0) / [size.width, size.height]
+                     if one[:, 2].min() > 0.0 else (1e3, 1e3) for one in boxes])  # fmt: skip
+
+
+class _Framing(NamedTuple):
+    """Shares of the image that a subject of a framing takes."""
+
+    least: float
+    """Least share of its height, of a person."""
+    most: float
+    """Most share of its width or height."""
+    line: str
+
+    def holds(
+        self, body: Actor, cameras: Sequence[PosedCamera], times: Sequence[float],
+        size: SensorSize,
+    ) -> bool:  # fmt: skip
+        """Whether a body takes such shares, at half of the instants at least."""
+        shares = _shares(body, cameras, times, size)
+        is_person = body.noun.name in PERSON_NOUNS
+        is_so = shares.max(axis=1) <= self.most
+        is_so |= not is_person and self.most > 1.0
+        is_so &= (shares[:, 1] >= self.least) | (not is_person)
+        return bool(np.mean(is_so) >= _HALF)
+
+
+def _find_wrong_size(
+    main: Actor, framing: str, cameras: Sequence[PosedCamera], times: Sequence[float],
+    size: SensorSize,
+) -> Iterator[Violation]:  # fmt: skip
+    """A framing whose subject takes more or less of the image than it says."""
+    framed, line = _FRAMINGS.get(framing), ""
+    if framing == "close":
+        held = near_part(main, "close", np.array(times))
+        shares = [_extent(*each, size) for each in zip(held, cameras, strict=True)]
+        if np.mean(np.array(shares) >= _CLOSE) < _HALF:
+            line = f"{_SAID['close']} of the {main.noun.name}: it is small in the image"
+    elif framed is not None and not framed.holds(main, cameras, times, size):
+        line = f"{framing} shot: the {main.noun.name} is {framed.line}"
+    if line:
+        yield Violation("framing", framing, line)
+
+
+_FRAMINGS = {
+    "medium": _Framing(0.8, 4.0, "too far away or too near"),
+    "full": _Framing(0.3, 1.1, "too far away, or cut off"),
+    "wide": _Framing(0.0, 0.66, "large in the picture"),
+}
+"""Framing → what its subject takes of the image."""
 
 
 def _find_met(scene: ComposedScene, times: Sequence[float]) -> str:

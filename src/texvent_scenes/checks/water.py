@@ -8,7 +8,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from texvent_scenes.checks.relations import Violation
-from texvent_scenes.description import SceneDescription
+from texvent_scenes.checks.staged_clip import StagedClip
+from texvent_scenes.description import Claim, SceneDescription
 from texvent_scenes.rendered_scene import Float64Array, Ground
 from texvent_scenes.staging.compose import ComposedScene
 from texvent_scenes.staging.surroundings.environment import RoadLine
@@ -17,6 +18,9 @@ from texvent_scenes.staging.tracks.phases import schedule
 _INSTANTS, _HALF, _LEAST_CLIP_S = 9, 0.5, 1.0
 """Instants of a phase at which it is looked; share of them that tells, since it may come ashore on
 the way; length of a clip in which motions get so far that they are judged, s."""
+_ALONG, _OVER, _FAR_M = 0.8, 0.2, 300.0
+"""Cosine of the angle to a road or a shore up to which a way is along it; share of the clip in
+which what flies over it is above it, or before it; distance of what is seen at the horizon, m."""
 _ON_FOOT = frozenset({"walk", "run", "crawl"})
 _AFLOAT = frozenset({"swim", "sail", "paddle", "row", "surf"})
 
@@ -31,6 +35,45 @@ def wet_share(scene: ComposedScene, ground_m: Float64Array) -> float:
     half_m = float(base.road_half_width) if place.ground is not Ground.LAKE else 0.0
     across_m = RoadLine(base.road_angle, (x, y)).across(ground_m)
     return float(((across_m > -half_m) & (across_m < (half_m or math.inf))).mean())
+
+
+def is_above_way(staged: StagedClip, claim: Claim) -> bool:
+    """Whether bodies are above the road or the water of a place: at first of what leaves it.
+
+    Over it they are so for a part of the clip, or before it as the camera sees them; along it they
+    have its direction.
+    """
+    base, place = staged.scene.animated_environment.base, staged.scene.place
+    x, y = map(float, base.road_offset)
+    line, half_m = RoadLine(base.road_angle, (x, y)), float(base.road_half_width)
+    for body in staged.own_boxes(claim):
+        spots = body.middle[:, :2]
+        if claim.value == "along":
+            way = spots[-1] - spots[0]
+            ahead = np.array([math.cos(line.angle), math.sin(line.angle)])
+            if abs(float(way @ ahead)) < _ALONG * np.linalg.norm(way):
+                return False
+            continue
+        is_over = claim.value in ("over", "above")
+        spots = np.stack([spots, _behind(staged, body.middle)]) if is_over else spots[None, :1]
+        if place.has_shore:
+            is_so = np.array([[wet_share(staged.scene, one[None]) for one in each]
+                              for each in spots])  # fmt: skip
+        else:
+            is_so = np.array([np.abs(line.across(each)) <= half_m for each in spots], dtype=float)
+        if is_so.mean(axis=1).max() < _OVER:
+            return False
+    return True
+
+
+def _behind(staged: StagedClip, middle: Float64Array) -> Float64Array:
+    """[t, 2] Points of the ground that a camera sees behind the middle of a body [t, 3], m."""
+    places = np.array([staged.scene.camera(one).position for one in staged.times])
+    rays = middle - places
+    with np.errstate(divide="ignore"):
+        steps = np.where(rays[:, 2] < 0.0, -places[:, 2] / rays[:, 2], np.inf)
+    steps = np.minimum(steps, _FAR_M / np.maximum(np.linalg.norm(rays, axis=1), 1e-6))
+    return np.asarray((places + steps[:, None] * rays)[:, :2])
 
 
 def find_wet_and_dry(

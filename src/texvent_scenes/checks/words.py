@@ -43,20 +43,25 @@ from texvent_scenes.checks.acts import (
     turns,
 )
 from texvent_scenes.checks.body_boxes import BodyBoxes
-from texvent_scenes.checks.camera_ways import is_camera_so, is_macro, is_overtaken
+from texvent_scenes.checks.camera_ways import (
+    is_at_eye_level,
+    is_camera_so,
+    is_macro,
+    is_overtaken,
+)
 from texvent_scenes.checks.grips import handles_by_hand
+from texvent_scenes.checks.lit import shows_lit_colour
 from texvent_scenes.checks.looks import has_look
 from texvent_scenes.checks.parts import (
     Place,
     has_colour,
     is_blinking,
-    is_lit_in,
     is_moving_inside,
     is_of_material,
 )
 from texvent_scenes.checks.places import is_before_sky
 from texvent_scenes.checks.staged_clip import StagedClip
-from texvent_scenes.checks.water import wet_share
+from texvent_scenes.checks.water import is_above_way, wet_share
 from texvent_scenes.description import SEEN, Claim, SceneDescription
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor
@@ -81,12 +86,13 @@ _DONE = (
     "begin",
 )
 """Length of a clip in which motions get so far that they are judged, s; claims of read motions."""
-_OF_CAMERA = (SEEN, "circle", "camera", "macro")
+_OF_CAMERA = (SEEN, "circle", "camera", "macro", "eye level")
 """Claims that may be made of the camera."""
 _COVERED = 0.6
 """Most distance in the image of what is covered, in half extents of both."""
-_LARGE = 0.25
-"""Least size of what is close to the camera, as a share of its distance."""
+_LARGE, _TELLING = 0.25, 0.12
+"""Least size of what is close to the camera, and of that of which one sees parts, as a share of its
+distance."""
 _LIT_SHARE = 0.5
 """Share of the period of a lamp that blinks for which it is lit."""
 _MOSTLY = 0.75
@@ -251,6 +257,12 @@ def _is_near(staged: StagedClip, claim: Claim) -> bool:
                for one in staged.own_boxes(claim))  # fmt: skip
 
 
+def _tells_parts(staged: StagedClip, claim: Claim) -> bool:
+    """Whether a body is so large in the image at some instant that one sees its parts: a mane."""
+    return any((one.size.max(axis=1) >= _TELLING * np.maximum(one.seen[:, 2], 1e-3)).any()
+               for one in staged.own_boxes(claim))  # fmt: skip
+
+
 def _covers(staged: StagedClip, claim: Claim) -> bool:
     """Whether each body is before another one in the image at some time, and over much of it."""
     others = [one for n in claim.targets for one in staged.boxes[n]]
@@ -304,7 +316,7 @@ def _is_before_sky(staged: StagedClip, claim: Claim) -> bool:
 CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "colour": _of_parts(has_colour), "material": _of_parts(is_of_material),
     "look": _of_parts(has_look),
-    "blink": _of_parts(is_blinking), "lit colour": _of_parts(is_lit_in),
+    "blink": _of_parts(is_blinking), "lit colour": shows_lit_colour,
      "relation": _is_related, "off": _leaves,
     "arrive": _arrives, "stop before": stops_before, "row": _is_row, "stack": _is_stack,
     "times": repeats,
@@ -320,5 +332,6 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "turn": turns, "begin": begins, "near": _is_near, "pace": changes_pace,
     "sky behind": _is_before_sky, "taken in": _is_taken_in,
     "sit at": _sits_at, "macro": is_macro, "overtaken": is_overtaken, "cover": _covers,
+    "eye level": is_at_eye_level, "above way": is_above_way, "part": _tells_parts,
 }  # fmt: skip
 """Kind of claim → its check."""

@@ -90,11 +90,14 @@ def _list_dependences(draft: SceneDraft, lost: Collection[str]) -> Iterator[Depe
 
     In a clause these are words that say how things go together, such as verbs. Things, lights and
     places, with their colours and numbers, depend on what leads to them: "beneath", "steep".
-    A prompt of which most clauses have a lost word is one clause.
+    A prompt of which most clauses have a lost word is one clause. How the things of a clause go
+    together is known only if the staged scene has them all.
     """
     words = [(draft.compounds.get(one.at, one.text), one) for one in draft.tokens]
     clauses = [*_split_clauses(words, lost)]
     broken = [clause for clause in clauses if any(text in lost for text, _ in clause)]
+    for clause in clauses:
+        yield from _list_between(clause)
     for clause in [words] if 2 * len(broken) > len(clauses) else clauses:
         others = (pair for pair in clause if not pair[1].has("noun", "place", "field"))
         ties = [text for text, one in others if one.says("scene", "camera") or one.has(*_TIES)]
@@ -108,6 +111,17 @@ def _list_dependences(draft: SceneDraft, lost: Collection[str]) -> Iterator[Depe
             is_of_next = one.has("articles", "field", "partitive") or (is_lost and one.is_unknown)
             before = text if is_lost or not is_of_next else before
             fields = [*fields, text] if is_of_next else []
+
+
+def _list_between(clause: Sequence[tuple[str, Token]]) -> Iterator[Dependence]:
+    """Verbs, which depend on the thing before them, and prepositions, on those around them."""
+    things = [n for n, (_, one) in enumerate(clause) if one.has("noun", "effect")]
+    for n, (text, one) in enumerate(clause):
+        before, after = [k for k in things if k < n][-1:], [k for k in things if k > n][:1]
+        is_between = n not in things and one.has("verb", "relation")
+        around = (*before, *(after if one.has("relation") else ())) if is_between else ()
+        if around:
+            yield Dependence((text,), tuple(clause[k][0] for k in around), is_staged=True)
 
 
 def _split_clauses(

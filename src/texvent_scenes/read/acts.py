@@ -154,6 +154,7 @@ def _choose_act(
     done |= _list_played(draft, subjects) if verb.text in _list_performing() else set()
     if verb.text in _list_performing():
         acts[:0] = [VerbSense("person", one) for one in done]
+    acts.sort(key=lambda one: {one.who} != draft.names(subjects))  # a football player dribbles
     acts.sort(key=lambda one: one.kind not in done)  # "swings at a ball": a golfer, a batter
     tools = [one for one in acts if one.who == "person" and _list_tools(one.kind)]
     if act := _act_as_person(draft, tools, subjects, objects, has_object):
@@ -193,6 +194,9 @@ def _act_as_person(
             for token in draft.tokens if act.relation in of_hands else ():
                 if token.nouns & HAND_NOUNS:
                     draft.mark(token, "person")  # all of whom bends down
+            are_hands = {noun for noun, _ in said} <= HAND_NOUNS
+            if are_hands and act.kind in ACTIVITIES and act.relation not in SENT:
+                draft.parts["camera"].setdefault("framing", "close")  # no more is said of whose
             return act
     for one, (noun, count) in zip(things, said, strict=True):
         one |= {"noun": noun, "count": count}

@@ -120,3 +120,10 @@ def _say_of_part(draft: SceneDraft, word: Token, part: str, owners: Indices) -> 
     elif word.text != part and not (fields.keys() & {"count"} or word.has("articles")):
         return  # "with shiny blades"
     draft.show(word)
+    claim_fine(draft, word, owners)
+
+
+def claim_fine(draft: SceneDraft, token: Token, owners: Indices) -> None:
+    """Leave it to the staged scene whether one sees fine parts, such as a mane."""
+    is_fine = token.text in word_set("things", "fine_parts")
+    draft.claim(token, "part", "", owners if is_fine else [])

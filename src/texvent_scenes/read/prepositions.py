@@ -164,10 +164,24 @@ def go_to_place(
         is_amid = thing.get("placement") == "centre" and draft.nouns[thing["noun"]].speed_m_s
         thing |= {"placement": "lane"} if is_amid else {}  # "in the middle of the road"
     is_road = token.text in ("on", *_ALONG) and place in (PLACES["road"], PLACES["dirt road"])
+    _keep_above(draft, token, place, moved or subjects)
     for index in subjects if is_road else ():
         said = token.text == "on" and place is PLACES["road"]  # else a fence stands beside it
         if draft.walks(index) or (said and draft.noun(index).motion != "drive"):
             draft.things[index].setdefault("placement", "lane")
+
+
+def _keep_above(draft: SceneDraft, token: Token, place: PlaceModel, subjects: Indices) -> None:
+    """Put what flies over a road or water above it, as what "takes off from a lake"."""
+    has_way = place.has_road or place.has_shore
+    flying = [one for one in subjects if draft.noun(one).habitat == "air"]
+    rises = token.text in ("from", "off") and draft.does(flying) <= {"rise"}
+    if not (has_way and flying and (token.text in ("over", "above", "along") or rises)):
+        return
+    for index in flying if token.text != "along" else ():
+        draft.things[index].setdefault("placement", "lane")
+    is_dry = rises and place.has_road
+    draft.claim(token, "above way", token.text, [] if is_dry else flying)
 
 
 def goes_over(draft: SceneDraft, token: Token, subjects: Indices) -> bool:

@@ -30,6 +30,7 @@ from texvent_scenes.read.parsing.lexicon import (
     word_table,
 )
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
+from texvent_scenes.read.parts import claim_fine
 from texvent_scenes.spec.scene import MAX_BODIES
 
 
@@ -156,8 +157,10 @@ def _name_thing(draft: SceneDraft, group: Group, head: Token) -> list[int]:
     noun, owners = group.noun, word_set("things", "owners")
     known = draft.find([noun.noun] if noun else ())
     known = known or (list_kinds(draft, head) if group.article == "the" else [])
-    if group.article in owners | {"the", ""} and draft.find(word_table("parts").get(head.text, ())):
+    having = draft.find(word_table("parts").get(head.text, ()))
+    if group.article in owners | {"the", ""} and having:
         draft.show(head)
+        claim_fine(draft, head, having[-1:])
         return []  # "a cyclist falls off his bike", "a car stops and the door opens"
     is_owned = group.article in owners or bool(draft.find(PERSON_NOUNS))
     is_part = noun and ((is_owned and noun.noun in HAND_NOUNS) or group.article == "its")
@@ -168,10 +171,12 @@ def _name_thing(draft: SceneDraft, group: Group, head: Token) -> list[int]:
         return _name_members(draft, group, head, members)
     draft.show(head)
     is_plain = not group.modifiers and not group.unknown
-    is_same = bool(known) and group.is_plural == (draft.things[known[-1]]["count"] > 1)
-    if is_same and is_plain and is_again(draft, group, head, known[-1]):
-        draft.last.nearest = known[-1:]  # "the car", where there is one
-        return known[-1:]
+    same = [n for n in known if group.is_plural == (draft.things[n]["count"] > 1)]
+    if len(known) > len(same):  # "the player", of a player and two defenders
+        same = [n for n in same if draft.things[n].get("word", "").endswith(head.text)] or same
+    if same and is_plain and is_again(draft, group, head, same[-1]):
+        draft.last.nearest = same[-1:]  # "the car", where there is one
+        return same[-1:]
     draft.last.nearest = [_add_thing(draft, group, head)]
     return draft.last.nearest
 

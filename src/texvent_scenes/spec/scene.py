@@ -138,7 +138,8 @@ class SceneObject:
     material: Material | None = None
     """Material of the surface."""
     placement: Placement | None = None
-    """Region of the image ("left", "right", "centre", "far", "near") or the road ("lane")."""
+    """Region of the image ("left", "right", "centre", "far", "near") or the road ("lane"); of what
+    flies, above the road or the water."""
     motions: tuple[Motion, ...] = ()
     """Motions in their order; left out: the usual one where nothing else moves, else rest."""
     relations: tuple[Relation, ...] = ()
@@ -258,9 +259,11 @@ class Light:
     """Illumination of the scene."""
 
     kind: Literal[
-        "day", "sunny", "overcast", "dusk", "dawn", "night", "moonlight", "lamp"
+        "day", "sunny", "overcast", "stormy", "morning", "afternoon", "dusk", "dawn", "night",
+        "moonlight", "lamp"
     ] | None = None  # fmt: skip
-    """Time of day or main light source; left out: day, or what the place has."""
+    """Time of day or main light source; left out: day, or what the place has. In the "morning" and
+    the "afternoon" the sun is low; "stormy" is dark clouds."""
     flicker_hz: Hertz | None = None
     """Frequency at which all light is modulated, Hz."""
     wave: Waveform = "sine"

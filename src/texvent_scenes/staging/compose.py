@@ -43,6 +43,7 @@ from texvent_scenes.staging.surroundings.environment import (
     contrasting,
     find_road,
     lay_across,
+    list_flyers_above,
     water_line,
 )
 from texvent_scenes.staging.surroundings.lamps import LampPlan, plan_lamps
@@ -269,7 +270,7 @@ def _describe_view(
 ) -> ViewClearance:
     times = [duration_s * step / (VIEW_INSTANTS - 1) for step in range(VIEW_INSTANTS)]
     if place.has_shore:
-        road = water_line(place, actors, path)
+        road = water_line(place, actors, path, list_flyers_above(description, actors))
     else:
         road = find_road(description, place, actors, float(path.framing.target[1]))
     has_strip = place.has_road or place.ground is Ground.RIVER

@@ -7,9 +7,10 @@ from dataclasses import fields
 from typing import NamedTuple
 
 from texvent.errors import few, shown
+from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.places import PLACES, PlaceModel
 from texvent_scenes.rendered_scene import Ground
-from texvent_scenes.spec.scene import Scene
+from texvent_scenes.spec.scene import Scene, SceneObject
 
 MOST_NAMED = 6
 """Most words that an error names."""
@@ -67,7 +68,8 @@ def idle_place(scene: Scene, name: str) -> Iterator[Idle]:
                    f"these have: {known}")  # fmt: skip
     if said.is_wet and said.weather == "rain" and PLACES[name].ground in _WETTED:
         yield Idle("place.is_wet", "rain wets the ground anyway", is_usual=True)
-    is_lane = [one.placement == "lane" for one in scene.objects]
+    is_lane = [one.placement == "lane" and not _is_above_water(one, PLACES[name])
+               for one in scene.objects]  # fmt: skip
     travels = any(one.kind == "travel" for one in scene.camera.moves)
     for road_field in ("road_m", "road_heading_deg") if travels else ():
         if getattr(said, road_field) is not None:
@@ -75,3 +77,8 @@ def idle_place(scene: Scene, name: str) -> Iterator[Idle]:
             yield Idle(f"place.{road_field}", why)
     if any(is_lane) and not (PLACES[name].has_road or travels):
         yield Idle(f"objects[{is_lane.index(True)}].placement", f"{shown(name)} has no lane")
+
+
+def _is_above_water(one: SceneObject, place: PlaceModel) -> bool:
+    """Whether an object flies above the water of a river or lake, which is its lane."""
+    return place.has_shore and one.noun in NOUNS and NOUNS[one.noun].habitat == "air"

@@ -132,3 +132,38 @@ def test_scenery_stands_where_a_camera_from_the_air_looks(place, view):
         inside |= (abs(x - 0.5 * SIZE.width) < 0.7 * SIZE.width) & (y > 0.0) & (depth > 0.0)
     assert len(spots) >= 30
     assert inside.mean() > 0.35
+
+
+@pytest.mark.parametrize("noun", ["man", "ballerina", "child"])
+def test_a_framing_holds_where_it_is_staged_and_another_one_does_not(noun):
+    names = ("close", "medium", "full", "wide")
+    for name in names:
+        scene = stage(thing(noun, ("stand",)), camera=Camera(framing=name))
+        wrong = {each for each in names if faults(scene, Camera(framing=each))}
+        assert name not in wrong
+        assert wrong >= {"close": {"full", "wide"}, "medium": {"full", "wide"},
+                         "full": {"wide"}, "wide": {"close", "medium"}}[name]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("text", "is_so"),
+    [("a man walks, the camera is at eye level", True), ("eye level shot of a truck driving", True),
+     ("top view of a dog running, at eye level", False), ("a drone hovers at eye level", True),
+     ("a drone hovers 20 m above the ground at eye level", False)],
+)  # fmt: skip
+def test_eye_level_is_shown_where_the_camera_or_what_hovers_is_so_high(text, is_so):
+    said = staged(text)[1]
+    assert any("eye level" in one for one in said.shown) == is_so
+    assert any("eye level" in one for one in said.not_shown) != is_so
+
+
+@pytest.mark.parametrize(
+    ("text", "is_told"),
+    [
+        ("close-up of a woman kneading dough", True),
+        ("an old man walks", False),
+        ("close-up of a girl laughing", False),
+    ],
+)
+def test_a_person_whose_head_is_out_of_the_picture_is_noted(text, is_told):
+    assert any("head of the" in one for one in staged(text)[1].notes) == is_told

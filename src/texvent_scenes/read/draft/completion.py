@@ -224,6 +224,22 @@ def _bring_weather(draft: SceneDraft) -> None:
                 draft.parts["place"].setdefault("weather", weather)
 
 
+def _claim_levels(draft: SceneDraft) -> None:
+    """Leave it to the staged scene whether the camera, or what hovers, is at eye level."""
+    flying = [n for n, one in enumerate(draft.things) if draft.nouns[one["noun"]].habitat == "air"]
+    for token in draft.tokens:
+        if token.text not in word_set("things", "eye_levels"):
+            continue
+        before = [one for one in draft.tokens if one.at < token.at]
+        ends = (n + 1 for n, one in enumerate(before) if one.is_sign)
+        said = before[max(ends, default=0) :]
+        is_flyer = any(one.has("verb") for one in said) and not any(
+            one.has("camera", "shot") for one in said
+        )
+        own = [n for n in flying if is_flyer][-1:] or [None]
+        draft.claim(token, "eye level", "", own)
+
+
 _DECISIONS: tuple[Callable[[SceneDraft], object], ...] = (
     _choose_gender,
     _lead_view,
@@ -242,5 +258,6 @@ _DECISIONS: tuple[Callable[[SceneDraft], object], ...] = (
     _limit_counts,
     _look_up,
     _bring_weather,
+    _claim_levels,
 )
 """Decisions, in their order."""

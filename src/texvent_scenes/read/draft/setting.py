@@ -38,7 +38,7 @@ def set_scene(draft: SceneDraft, token: Token, things: Sequence[Any] = ()) -> bo
     for part, name, value in said:
         if name == "name" and value in ("sky", "indoor") and draft.parts[part].get(name):
             continue  # "in a kitchen, indoors"
-        if value not in ("day", "overcast") or name not in draft.parts[part]:  # "dusk, overcast"
+        if name != "kind" or _tells_more(value, draft.parts[part].get(name)):
             draft.parts[part][name] = value
     is_near = token.text.split()[0] in word_set("things", "nearest")
     draft.claim(token, "macro", "", [None] if is_near else [])
@@ -47,6 +47,17 @@ def set_scene(draft: SceneDraft, token: Token, things: Sequence[Any] = ()) -> bo
     is_sun = bool(lights) and token.text in word_set("things", "suns")
     draft.mark(token, lights[0]) if is_sun else draft.show(*([token] if is_said else []))
     return is_said
+
+
+_DAYLIGHTS = ("day", "sunny", "morning", "afternoon", "overcast", "stormy")
+"""Lights of the day, from that which tells least: of "an overcast morning" no sun is seen."""
+
+
+def _tells_more(light: str, said: str | None) -> bool:
+    """Whether a light takes the place of one that is said: not the sun that of "dusk"."""
+    if said is None or light not in _DAYLIGHTS:
+        return True
+    return said in _DAYLIGHTS and _DAYLIGHTS.index(light) >= _DAYLIGHTS.index(said)
 
 
 def _leaves_place(draft: SceneDraft, token: Token) -> bool:

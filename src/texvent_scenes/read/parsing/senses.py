@@ -136,11 +136,23 @@ def _see_as_verb(token: Token, tokens: Sequence[Token]) -> Token:
     is_begun |= before.says("adverb", "pace") and token_at(tokens, token.at - 2).has("relatives")
     is_verb = True in forms and is_begun and not (after.has("verb") or after.text == "and")
     is_verb &= token.has("verb") or not before.says("adverb", "pace")  # "then cars drive by"
+    is_verb |= bool(forms) and _goes_on(token, tokens)
     is_led = after.text in word_set("things", "particles") and (then.is_sign or then.text == "and")
     is_verb |= True in forms and is_led and not before.has("articles", "field", "relation")
     is_agreed = before.is_unknown and is_plural_form(before.text) and not after.has("noun")
     is_verb |= forms == {False} and bool(token.verbs("base")) and is_agreed  # "shadows slide"
     return replace(token, senses=token.all("verb")) if is_verb else token
+
+
+def _goes_on(token: Token, tokens: Sequence[Token]) -> bool:
+    """Whether it is a second act of a subject: "stands there and watches", no list of things."""
+    conjunction, before = (token_at(tokens, token.at + step) for step in (-1, -2))
+    signs = (one.at + 1 for one in tokens[: token.at] if one.is_sign)
+    said = tokens[max(signs, default=0) : max(token.at - 1, 0)]
+    is_listed = any(one.value.is_plural for one in before.all("noun"))
+    verbs = (*token.verbs("s"), *token.verbs("base"))
+    acts = [one for one in said if one.verbs("s") or one.verbs("base")]
+    return conjunction.text == "and" and bool(verbs and acts) and not is_listed
 
 
 def _see_as_mass(token: Token, tokens: Sequence[Token]) -> Token:

@@ -20,7 +20,7 @@ from texvent_scenes.staging.camera.camera_track import Tie, TimedMove
 
 INSTANTS = 13
 """Instants of the clip at which everything must fit."""
-_FILL, _WIDE_FILL, _FOLLOWED_FILL, _NEAR_FILL = 0.88, 0.7, 0.75, 0.95
+_FILL, _WIDE_FILL, _FOLLOWED_FILL, _NEAR_FILL = 0.88, 0.55, 0.75, 0.95
 """Share of the image that what matters may fill: usually, in a wide shot, where the camera goes
 along with it, and in a close shot."""
 _FILL_BY_MOVE = {"pan": 0.62, "tilt": 0.7, "truck": 0.66, "pedestal": 0.7, "orbit": 0.66,
@@ -195,10 +195,12 @@ def near_part(
 def _hands_at_work(main: Actor, times: Float64Array) -> Float64Array | None:
     """[times, 4, 3] places around hands, m, of a person who acts with them alone.
 
-    They are away from the face, and not on what is worn or held before the chest, as a guitar.
+    They have something in them or before them, as none who laughs has, are away from the face, and
+    not on what is worn or held before the chest, as a guitar.
     """
-    held = {"ground", *_HANDS}
-    if main.noun.name not in PERSON_NOUNS or {one.anchor for one in main.props} - held:
+    held = {"ground", "hands", *_HANDS}
+    anchors = {one.anchor for one in main.props}
+    if main.noun.name not in PERSON_NOUNS or not anchors or anchors - held:
         return None
     ways = np.array([[main.anchor(one, float(time))[:, 3] for time in times]
                      for one in (*_HANDS, "head")])  # fmt: skip

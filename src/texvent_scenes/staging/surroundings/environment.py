@@ -106,6 +106,7 @@ def find_road(
         one.placement != "lane" for one in description.objects
     )
     road = _road_below_camera(description, actors, lane_m)
+    road = road or _road_below_flyers(description, actors)
     road = road or _straight_road(actors, usual_y, lane_m, has_pavement=has_pavement)
     if said.road_heading_deg is not None:
         road = replace(road, angle=math.radians(said.road_heading_deg), crossings=())
@@ -157,6 +158,21 @@ def with_crossing(road: RoadLine, said: Place, usual_m: float) -> RoadLine:
         return road
     x, y, angle = road.at(usual_m)
     return replace(road, crossings=((x, y, angle + 0.5 * math.pi),))
+
+
+def list_flyers_above(description: SceneDescription, actors: Sequence[Actor]) -> list[Actor]:
+    """Bodies in the air that are said to be above the road or the water of a place."""
+    return [one for one in actors if one.noun.habitat == "air"
+            and description.objects[one.object_index].placement == "lane"]  # fmt: skip
+
+
+def _road_below_flyers(description: SceneDescription, actors: Sequence[Actor]) -> RoadLine | None:
+    """The road along the way of what flies above it; None: something on the ground goes there."""
+    flyers = list_flyers_above(description, actors)
+    if not flyers or any(one.is_mover and one.noun.habitat == "ground" for one in actors):
+        return None
+    x, y, _ = flyers[0].middle(0.0)
+    return RoadLine(flyers[0].track.at(0.0).yaw, (float(x), float(y)))
 
 
 def _straight_road(
@@ -250,16 +266,20 @@ def lies_ashore(noun: Noun, doing: str) -> bool:
     return doing == "lie" and noun.name in AFLOAT
 
 
-def water_line(place: PlaceModel, actors: Sequence[Actor], path: CameraTrack) -> RoadLine:
+def water_line(
+    place: PlaceModel, actors: Sequence[Actor], path: CameraTrack, above: Sequence[Actor] = ()
+) -> RoadLine:
     """The middle of a river, or the shore of a lake with the water on its left.
 
-    It runs through objects that float or swim, and behind those on land.
+    It runs through objects that float or swim, or are `above` the water, and behind those on land.
     """
     forward = path.at(0.0).rotation[2, :2]
     angle = math.atan2(float(forward[1]), float(forward[0])) - 0.5 * math.pi
     x, y = float(path.framing.target[0]), float(path.framing.target[1])
     half = place.road_m if place.ground is Ground.RIVER else 0.0
-    swimmers = [one for one in actors if is_afloat(one)]
+    is_free = not any(one.noun.habitat in ("ground", "fixed") for one in actors)
+    flying = {one.instance for one in above} if is_free else set()  # no tree stands in water
+    swimmers = [one for one in actors if is_afloat(one) or one.instance in flying]
     on_land = [one for one in actors if one.track.anchor is None and one not in swimmers
                and (one.noun.habitat == "ground" or one.noun.name in AFLOAT)]  # fmt: skip
     bank_m = _STRAND_M if place.surface is Texture.SAND else _LEAST_BANK_M
