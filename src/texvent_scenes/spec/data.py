@@ -56,8 +56,8 @@ SENT = ("kick", "throw", "roll", "hit")
 
 SPACED = ("left of", "right of", "front", "behind", "beside")
 """Relations with a distance."""
-STEEPEST = 0.08
-"""Least metres to the side per metre up or down between a camera and the point it looks at."""
+LEAST_LOOK_M = 1e-3
+"""Least way from a camera to the point it looks at, m."""
 
 
 def scene_to_data(scene: Scene) -> dict[str, Any]:
@@ -163,9 +163,9 @@ def _camera_faults(camera: Camera) -> Iterator[str]:
     if (position is None) != (goal is None):
         yield "camera.position_m and camera.look_at_m are given together, or neither"
     elif position is not None and goal is not None:
-        if math.dist(position[:2], goal[:2]) <= STEEPEST * abs(position[2] - goal[2]):
-            yield (f"camera.look_at_m is {shown(goal)}, straight above or below "
-                   "camera.position_m; move one of them aside")  # fmt: skip
+        if math.dist(position, goal) < LEAST_LOOK_M:
+            yield (f"camera.look_at_m is {shown(goal)}, the place of camera.position_m itself; "
+                   "give a point in front of it")  # fmt: skip
         if camera.target is not None or any(one.kind == "travel" for one in camera.moves):
             yield ("camera.position_m is given with a target or with travel, which choose the "
                    "position; leave one of them out")  # fmt: skip

@@ -221,8 +221,8 @@ class Camera:
     target: str | None = None
     """Id of the object that the camera looks at or follows; left out: the first one."""
     position_m: tuple[Coordinate, Coordinate, Metres] | None = None
-    """Position x, y, z, m, given with `look_at_m`, without `target` and "travel"; moves
-    go through it half way."""
+    """Position x, y, z at time 0, m, given with `look_at_m`, without `target` and "travel"; moves
+    begin there."""
     look_at_m: tuple[Coordinate, Coordinate, Coordinate] | None = None
     """Point on the optical axis, m."""
     field_of_view_deg: Annotated[float, Between(1.0, 150.0)] | None = None

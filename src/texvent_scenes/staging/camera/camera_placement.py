@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from texvent.camera import PosedCamera
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.places import PLACES, is_room
 from texvent_scenes.models.tables import trait_value
@@ -125,7 +126,7 @@ def place_camera(
         _surroundings_of(description, place, travel), moves, duration_s,
         Tie.of(moves, main) if main is not None and travel is None else None,
         has_floor=PLACES[place].ground is not Ground.NONE and shot.position_m is None,
-        journey=None if travel is None else travel.journey,
+        journey=None if travel is None else travel.journey, is_stated=shot.position_m is not None,
     )  # fmt: skip
     shooting = _Shooting(description, actors, place, seed, aspect, path)
     if watched is not None:
@@ -135,7 +136,26 @@ def place_camera(
     if watched is not None:
         path = _keep_in_view(path, watched, aspect)
         path = replace(path, notes=tuple(_list_notes(path, watched, aspect)))
-    return _keep_in_room(path, shooting, travel) if is_room(place) else path
+    path = _keep_in_room(path, shooting, travel) if is_room(place) else path
+    return replace(path, notes=(*path.notes, *_tell_ends(path)))
+
+
+def _tell_ends(path: CameraTrack) -> Iterator[str]:
+    """Where a camera that moves from a stated pose is at the start and at the end."""
+    first, last = (path.at(time_s) for time_s in (0.0, path.duration_s))
+    if path.is_stated and any(one.move.kind != "static" for one in path.moves):
+        yield f"the camera begins {_tell_pose(first)}; at the end it is {_tell_pose(last)}"
+
+
+def _tell_pose(camera: PosedCamera) -> str:
+    """Place, heading, pitch and field of view of a camera."""
+    x, y, z = (round(float(one), 2) + 0.0 for one in camera.position)
+    right, forward = camera.rotation[0], camera.rotation[2]
+    heading = math.degrees(math.atan2(right[1], right[0])) + 90.0
+    pitch = math.degrees(math.asin(min(max(float(forward[2]), -1.0), 1.0)))
+    view = 2.0 * math.degrees(math.atan(0.5 / camera.focal))
+    return (f"at ({x:g}, {y:g}, {z:g}) m, heading {round(heading % 360.0, 1) % 360.0:g} degrees, "
+            f"pitch {round(pitch, 1) + 0.0:g}, field of view {view:.3g}")  # fmt: skip
 
 
 def _surroundings_of(

@@ -14,7 +14,7 @@ from texvent.camera import PosedCamera
 from texvent_scenes.rendered_scene import CORRIDOR_HEIGHT_M, Float64Array
 from texvent_scenes.spec.scene import CameraMove
 from texvent_scenes.staging.actors import Actor
-from texvent_scenes.staging.camera.framing import Framing, direction, look_at
+from texvent_scenes.staging.camera.framing import VERTICAL, Framing, direction, look_at
 from texvent_scenes.staging.tracks.track import Term, Track, add_up
 
 AMOUNTS = {
@@ -100,9 +100,16 @@ def time_moves(moves: Sequence[CameraMove], duration_s: float) -> list[TimedMove
 
 
 @lru_cache(maxsize=64)
-def terms_of(moves: tuple[TimedMove, ...], duration_s: float) -> tuple[Term, ...]:
-    """Terms of all moves but those along a track, in the channels of `AMOUNTS` and "along"."""
+def terms_of(
+    moves: tuple[TimedMove, ...], duration_s: float, *, begins_there: bool = False
+) -> tuple[Term, ...]:
+    """Terms of all moves but those along a track, in the channels of `AMOUNTS` and "along".
+
+    They begin at 0 or, unless `begins_there`, go through it half way.
+    """
     terms = tuple(term for one in moves for term in _expand(one))
+    if begins_there:
+        return (*terms, *(Term(kind, offset=-at) for kind, at in add_up(terms, 0.0).items()))
     edges = {0.0, duration_s, *(time for one in moves for time in (one.begin_s, one.end_s))}
     middles = []
     for kind in _CHANNELS:
@@ -206,6 +213,8 @@ class CameraTrack:
     """Half the width of the corridor that it is in, whose length is that side."""
     journey: Journey | None = None
     """The route of what travels."""
+    is_stated: bool = False
+    """Whether the scene states its pose, at which the moves begin."""
     passage_s: tuple[float, float] | None = None
     """Stretch of the clip in which a subject that is too fast crosses the picture, s; None: it is
     in the picture all along."""
@@ -220,7 +229,12 @@ class CameraTrack:
 
     @cached_property
     def _terms(self) -> tuple[Term, ...]:
-        return terms_of(self.moves, self.duration_s)
+        return terms_of(self.moves, self.duration_s, begins_there=self.is_stated)
+
+    @property
+    def _goes_through(self) -> bool:
+        """Whether a stated dolly from a stated pose goes on past the point that it looks at."""
+        return self.is_stated and all(one.move.kind != "orbit" for one in self.moves)
 
     def at(self, time_s: float) -> PosedCamera:
         """The camera at that instant."""
@@ -237,7 +251,10 @@ class CameraTrack:
                 target = target + self.tie.displacement(time_s)
             away = direction(framing.azimuth + by["orbit"], framing.elevation)
             distance = framing.distance_m * math.exp(-by["dolly"])
-            distance = max(distance - by[STATED["dolly"]], _LEAST_DISTANCE * framing.distance_m)
+            dolly_m = by[STATED["dolly"]]
+            ahead_m = dolly_m if self._goes_through else 0.0
+            distance = max(distance + ahead_m - dolly_m, _LEAST_DISTANCE * framing.distance_m)
+            target = target - ahead_m * away
             start = target + distance * away
         slide = _aside(framing.azimuth, by, width)
         position = self._keep_inside(start + slide)
@@ -245,8 +262,10 @@ class CameraTrack:
             ahead = -direction(state.yaw - 0.5 * math.pi, self.journey.pitch_rad)
         else:
             ahead = target + slide - position
-        ahead = _turned(ahead, by["pan"], by["tilt"])
-        camera = look_at(position, position + ahead, _zoomed(framing.focal, by))
+        azimuth = framing.azimuth + by["orbit"]
+        ahead = _turned(ahead, by["pan"], by["tilt"], azimuth)
+        focal = _zoomed(framing.focal, by)
+        camera = look_at(position, position + ahead, focal, azimuth - by["pan"])
         return _rolled(camera, roll)
 
     def in_room(self, points: Float64Array, times: Float64Array) -> CameraTrack:
@@ -298,13 +317,18 @@ def _rolled(camera: PosedCamera, angle: float) -> PosedCamera:
     return PosedCamera(camera.position, axes, camera.focal)
 
 
-def _turned(forward: Float64Array, right: float, up: float) -> Float64Array:
-    """The vector turned to the right about the vertical, then up."""
+def _turned(forward: Float64Array, right: float, up: float, azimuth: float) -> Float64Array:
+    """The vector turned to the right about the vertical, then up.
+
+    One that is vertical turns up towards where a camera at that azimuth looks.
+    """
     cosine, sine = math.cos(right), math.sin(right)
     x, y, z = forward
+    flat, length = math.hypot(x, y), math.hypot(x, y, z)
+    if flat <= VERTICAL * length:
+        x, y, flat = -math.sin(azimuth), math.cos(azimuth), 0.0
     x, y = x * cosine + y * sine, y * cosine - x * sine
-    flat = math.hypot(x, y)
-    angle = min(max(math.atan2(z, flat) + up, -MOST_PITCH_RAD), MOST_PITCH_RAD)
-    length = math.hypot(flat, z)
-    scale = length * math.cos(angle) / max(flat, 1e-9)
+    pitch, most = math.atan2(z, flat), MOST_PITCH_RAD
+    angle = min(max(pitch + up, min(pitch, -most)), max(pitch, most))
+    scale = length * math.cos(angle) / math.hypot(x, y)
     return np.array([x * scale, y * scale, length * math.sin(angle)])

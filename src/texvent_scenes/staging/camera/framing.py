@@ -13,6 +13,8 @@ from texvent_scenes.rendered_scene import Float64Array
 
 USUAL_FOCAL = 1.1
 """Focal length over image width."""
+VERTICAL = 1e-6
+"""Share of a way that leads aside up to which it is vertical."""
 NEAREST_M = 0.04
 """Least distance from the camera to what it looks at, m."""
 _LARGE = 0.3
@@ -43,10 +45,15 @@ class Framing:
 
 
 def pose(position: Sequence[float], target: Sequence[float]) -> Framing:
-    """The framing of a camera at a point, m, that looks at another one."""
+    """The framing of a camera at a point, m, that looks at another one.
+
+    A camera that looks straight down or up has the right of the picture at x.
+    """
     away = np.subtract(position, target)
     distance = float(np.linalg.norm(away))
-    azimuth, elevation = math.atan2(away[0], -away[1]), math.asin(away[2] / distance)
+    is_vertical = math.hypot(*away[:2]) <= VERTICAL * distance
+    azimuth = 0.0 if is_vertical else math.atan2(away[0], -away[1])
+    elevation = math.asin(min(max(away[2] / distance, -1.0), 1.0))
     return Framing(np.array(target, dtype=np.float64), azimuth, elevation, distance, USUAL_FOCAL)
 
 
@@ -68,12 +75,19 @@ def direction(azimuth: float, elevation: float) -> Float64Array:
     return np.array([flat * math.sin(azimuth), -flat * math.cos(azimuth), math.sin(elevation)])
 
 
-def look_at(position: Float64Array, target: Float64Array, focal: float) -> PosedCamera:
-    """A camera at `position` that looks at `target`, the horizon level."""
+def look_at(
+    position: Float64Array, target: Float64Array, focal: float, azimuth: float = 0.0
+) -> PosedCamera:
+    """A camera at `position` that looks at `target`, the horizon level.
+
+    The azimuth is that of one that looks straight up or down.
+    """
     forward = np.asarray(target - position, dtype=np.float64)
     forward = forward / np.linalg.norm(forward)
     right = np.array([forward[1], -forward[0], 0.0])
-    right = right / max(float(np.linalg.norm(right)), 1e-9)
+    flat = float(np.linalg.norm(right))
+    level = np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
+    right = level if flat <= VERTICAL else right / flat
     (fx, fy, fz), (rx, ry, rz) = forward, right
     down = (fy * rz - fz * ry, fz * rx - fx * rz, fx * ry - fy * rx)
     axes = np.array([right, down, forward])

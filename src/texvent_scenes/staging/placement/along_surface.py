@@ -167,7 +167,8 @@ def carry_along(group: ObjectGroup, target: ObjectGroup, support: Support) -> No
     group.carrier, way = None, math.copysign(1.0, next(speed for _, speed in steps if speed))
     taken = group.models[0].length if group.row_m is None else group.row_m
     room = max(support.high[0] - support.low[0] - taken, 0.0)
-    keys = _list_carried([(span_s, way * speed) for span_s, speed in steps], room)
+    ends = group.ends_m if group.ends_m is None or way > 0.0 else tuple(-x for x in group.ends_m)
+    keys = _list_carried([(span_s, way * speed) for span_s, speed in steps], room, ends)
     path = Track((0.0, 0.0, 0.0), target.plan.yaw + (math.pi if way < 0.0 else 0.0), keys)
     slide = replace(group.plan.motion, kind="slide")
     path = centred(path, target.plan.duration_s)
@@ -181,15 +182,18 @@ def _list_steps(phase: Phase, pace: float, end: float) -> list[tuple[float, floa
     return [(phase.duration_s / count, pace + (end - pace) * one) for one in middles]
 
 
-def _list_carried(steps: Sequence[tuple[float, float]], room_m: float) -> tuple[Key, ...]:
+def _list_carried(
+    steps: Sequence[tuple[float, float]], room_m: float, ends_m: Sequence[float] | None
+) -> tuple[Key, ...]:
     """Keys of what lies on a belt, up to where the way that it takes is as long as there is room.
 
-    `steps` are durations, s, and speeds, m/s.
+    `steps` are durations, s, and speeds, m/s; `ends_m` the ends of the way, where they are known.
     """
     keys = [Key(0.0, steps[0][1], activity="stand")]
     at = low = high = 0.0
     for span_s, speed in steps:
-        left_m = low + room_m - at if speed > 0.0 else at - (high - room_m)
+        least, most = (high - room_m, low + room_m) if ends_m is None else sorted(ends_m)
+        left_m = most - at if speed > 0.0 else at - least
         going_s = min(span_s, max(left_m, 0.0) / abs(speed)) if speed else 0.0
         at += speed * going_s
         low, high = min(low, at), max(high, at)

@@ -9,6 +9,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
@@ -28,6 +30,17 @@ _PERSON_M = 0.25
 """Half of the room of a person on something."""
 
 
+class Spot(NamedTuple):
+    """Place of a thing among others on a support."""
+
+    place: Float64Array
+    """[2] from the middle of the support, world axes, m."""
+    length_m: float
+    """Length of all things together along the longer side."""
+    ends_m: tuple[float, float]
+    """By how much all may go along the support, back and ahead, m."""
+
+
 class NoRoomError(Exception):
     """A distance for which there is no room; its text says why."""
 
@@ -43,6 +56,8 @@ class _Frame:
     """[2, 2] x and y of its body, world coordinates."""
     sides: Float64Array
     """[2] extents along them, m."""
+    body: Float64Array
+    """[2] extents of the whole thing, m."""
 
     @property
     def long(self) -> int:
@@ -55,8 +70,12 @@ def _frame_of(target: ObjectGroup, support: Support) -> _Frame:
     sides = np.subtract(support.high, support.low)
     if sides.max() <= 0.0:  # a ridge
         sides[int(body.width > body.length)] = 0.8 * max(body.width, body.length)
+    if target.plan.motion.kind == "spin":
+        sides[:] = sides.min()
     middle = target.to_world(*support.middle, 0.0)[:2]
-    return _Frame(target.noun.name, middle, _axes(target), sides)
+    return _Frame(
+        target.noun.name, middle, _axes(target), sides, np.array([body.length, body.width])
+    )
 
 
 @dataclass(frozen=True)
@@ -69,26 +88,53 @@ class Spacing:
     """Distances between them."""
     fixed: Mapping[int, Float64Array]
     """Index → place [2] of those that a position, or something elsewhere, decides, m."""
+    tied: frozenset[int] = frozenset()
+    """Those of which something elsewhere does."""
 
-    def place(
-        self, index: int, target: ObjectGroup, support: Support
-    ) -> tuple[Float64Array, float]:
-        """[2] from the middle of the support to that of a thing, world axes; length of all, m.
+    def place(self, index: int, target: ObjectGroup, support: Support) -> Spot:
+        """Place of a thing: where it is at time 0 if the scene states any of them.
 
         Raises:
             NoRoomError: they do not fit.
         """
         frame = _frame_of(target, support)
-        fixed = {n: frame.axes @ (place - frame.middle) for n, place in self.fixed.items()}
+        middle = frame.middle + target.lag_m
+        fixed = {n: frame.axes @ (place - middle) for n, place in self.fixed.items()}
         blocks = [self._join(block, frame.axes) for block in self._blocks()]
-        self._line_up([one for one in blocks if not fixed.keys() & one.keys()], frame)
-        for block in (one for one in blocks if fixed.keys() & one.keys()):
+        bound = [one for one in blocks if fixed.keys() & one.keys()]
+        for block in bound:
             known = min(fixed.keys() & block.keys())
             _shift(block, fixed[known] - block[known])
+        self._make_way(bound, [one for one in blocks if not fixed.keys() & one.keys()], frame)
         places = {n: place for block in blocks for n, place in block.items()}
         self._check(places, fixed, frame)
         low, high = self._extent(places, frame)
-        return np.asarray(frame.axes.T @ places[index]), float((high - low)[frame.long])
+        ends = -0.5 * frame.sides[0] - low[0], 0.5 * frame.sides[0] - high[0]
+        return Spot(
+            np.asarray(frame.axes.T @ places[index]), float((high - low)[frame.long]),
+            (min(float(ends[0]), 0.0), max(float(ends[1]), 0.0)),
+        )  # fmt: skip
+
+    def _make_way(
+        self, bound: Sequence[dict[int, Float64Array]], free: Sequence[dict[int, Float64Array]],
+        frame: _Frame,
+    ) -> None:  # fmt: skip
+        """Put free blocks where bound ones leave room: each into the middle of the largest gap."""
+        self._line_up(free, frame)
+        taken = [self._extent(one, frame) for one in bound]
+        for block in free:
+            low, high = self._extent(block, frame)
+            if any((low < far).all() and (high > near).all() for near, far in taken):
+                half = 0.5 * float(frame.sides[frame.long])
+                spans = sorted((float(near[frame.long]), float(far[frame.long]))
+                               for near, far in taken)  # fmt: skip
+                gaps = pairwise([(-half, -half), *spans, (half, half)])
+                left, right = max(((one[1], other[0]) for one, other in gaps),
+                                  key=lambda gap: gap[1] - gap[0])  # fmt: skip
+                shift = np.zeros(2)
+                shift[frame.long] = 0.5 * (left + right - (low + high)[frame.long])
+                _shift(block, shift)
+            taken.append(self._extent(block, frame))
 
     def _line_up(self, blocks: Sequence[dict[int, Float64Array]], frame: _Frame) -> None:
         """Put blocks one after the other along the longer side, at even gaps."""
@@ -159,9 +205,11 @@ class Spacing:
     ) -> None:
         """Refuse distances that contradict each other, places beside the support, and overlap."""
         for n, place in places.items():
-            is_said = n not in fixed or float(np.hypot(*(fixed[n] - place))) < _EXACT_M
+            if n in fixed and float(np.hypot(*(fixed[n] - place))) > _EXACT_M:
+                raise NoRoomError("position_m has them elsewhere")
             reach = np.minimum(self._half(n, frame), 0.5 * frame.sides)
-            if not is_said or float((np.abs(place) + reach - 0.5 * frame.sides).max()) > _EXACT_M:
+            is_derived = n not in fixed or n in self.tied
+            if is_derived and float((np.abs(place) + reach - 0.5 * frame.sides).max()) > _EXACT_M:
                 raise NoRoomError(
                     f"the {self.groups[n].noun.name} would be beside the {frame.name}, which has "
                     f"room for {frame.sides[0]:.2f} by {frame.sides[1]:.2f} m"
@@ -188,7 +236,9 @@ def _shift(block: dict[int, Float64Array], by: Float64Array) -> None:
 
 
 def _axes(target: ObjectGroup) -> Float64Array:
-    """[2, 2] x and y of a support's body, world coordinates."""
+    """[2, 2] x and y of a support's body, world coordinates; those of the world if it spins."""
+    if target.plan.motion.kind == "spin":
+        return np.eye(2)
     cosine, sine = math.cos(target.plan.yaw), math.sin(target.plan.yaw)
     return np.array([[cosine, sine], [-sine, cosine]])
 
@@ -237,17 +287,18 @@ def plan_spacing(
     links = [one for one in known if {one.subject, one.targets[0]} <= members.keys()]
     fixed = {n: np.array(said, dtype=np.float64) for n in members
              if (said := description.objects[n].position_m) is not None}  # fmt: skip
-    is_tied = False
+    tied = set[int]()
     for one in known:
         pair = one.subject, one.targets[0]
         for sign, own, other in ((1.0, *pair), (-1.0, *pair[::-1])):
             if own in members and other not in members and other in placed and own not in fixed:
                 step = sign * (one.distance_m or 0.0) * np.array(SIDES[one.kind])
-                fixed[own], is_tied = placed[other].middle[:2] + step, True
-    if not links and not is_tied:
+                fixed[own] = placed[other].begin + step
+                tied.add(own)
+    if not links and not fixed:
         return None
     # Those that are placed are turned already: all are taken as they come.
-    return Spacing({n: build(n) for n in members}, tuple(links), fixed)
+    return Spacing({n: build(n) for n in members}, tuple(links), fixed, frozenset(tied))
 
 
 def list_unkept(
@@ -256,10 +307,13 @@ def list_unkept(
     """Relations whose distance placed objects do not have, and why."""
     for one in list_distances(description):
         pair = one.subject, one.targets[0]
-        if any(n not in groups or description.objects[n].position_m for n in pair):
+        if any(n not in groups for n in pair):
             continue
-        off = (groups[pair[0]].middle - groups[pair[1]].middle)[:2]
+        stated = sum(description.objects[n].position_m is not None for n in pair)
+        off = groups[pair[0]].begin - groups[pair[1]].begin
         wanted = (one.distance_m or 0.0) * np.array(SIDES[one.kind])
+        if one.kind == "beside" and off[0] < 0.0:
+            wanted = -wanted
         bearers = [bearer_of(description, n) for n in pair]
         if bearers[0] is not None and bearers[0] == bearers[1]:
             axes = _axes(groups[bearers[0][1][0]])
@@ -269,4 +323,40 @@ def list_unkept(
             )  # people lean back as far as their legs let them
         is_kept = float(np.hypot(*(off - wanted))) < _EXACT_M
         if not is_kept:
-            yield one, "other relations and positions decide where both are"
+            x, y = (round(float(value), 3) + 0.0 for value in off)
+            why = "other relations and positions decide where both are"
+            yield one, f"position_m puts them ({x:g}, {y:g}) m apart" if stated == 2 else why
+
+
+def list_beside(
+    description: SceneDescription, groups: Mapping[int, ObjectGroup]
+) -> Iterator[tuple[int, str]]:
+    """Things with a stated position that is beside what they are on or in, and why."""
+    for n, group in groups.items():
+        if description.objects[n].position_m is None or group.bearer is None:
+            continue
+        target, support = group.bearer
+        frame = _frame_of(target, support)
+        off = frame.axes @ (group.begin - frame.middle - target.lag_m)
+        room = np.maximum(0.5 * frame.sides, 0.25 * frame.body) + _EXACT_M
+        if (np.abs(off) > room).any():
+            low, high = (frame.middle + target.lag_m + sign * np.abs(frame.axes.T @ room)
+                         for sign in (-1.0, 1.0))  # fmt: skip
+            ends = (f"({x:.2f}, {y:.2f})" for x, y in (low, high))
+            yield n, f"which is beside the {frame.name}: that has room from {' to '.join(ends)} m"
+
+
+def borne_places(description: SceneDescription, index: int) -> list[tuple[float, float]]:
+    """Stated positions of the things that an object bears, m."""
+    borne = (one for n, one in enumerate(description.objects)
+             if index in (bearer_of(description, n) or ("", ()))[1])  # fmt: skip
+    return [one.position_m for one in borne if one.position_m is not None]
+
+
+def is_measured(description: SceneDescription, index: int) -> bool:
+    """Whether things on an object have positions or distances in metres."""
+    on_it = {n for n in range(len(description.objects))
+             if index in (bearer_of(description, n) or ("", ()))[1]}  # fmt: skip
+    apart = (one for one in list_distances(description)
+             if {one.subject, one.targets[0]} <= on_it)  # fmt: skip
+    return bool(borne_places(description, index)) or any(apart)

@@ -12,7 +12,7 @@ import numpy as np
 from texvent_scenes.colours import rgb_of
 from texvent_scenes.description import STANDING, SceneDescription
 from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
-from texvent_scenes.models.anchors import find_support
+from texvent_scenes.models.anchors import Support, find_support
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.people.outfit import CLOTHES, HOLDS, Prop, list_props
 from texvent_scenes.models.people.person import SEAT, dress
@@ -68,6 +68,15 @@ class ObjectGroup:
     """Distances of what rests beside it on the same thing."""
     row_m: float | None = None
     """Length of the row in which it is on something; None: it is on the ground."""
+    bearer: tuple[ObjectGroup, Support] | None = None
+    """The thing on or in which it is, and the room there."""
+    begins: Float64Array | None = None
+    """[2] place of its middle at time 0 that stated metres decide, m; None: none do."""
+    ends_m: tuple[float, float] | None = None
+    """Ends of its way along what bears it, from where it begins, m; None: it goes through its
+    middle."""
+    lag_m: Float64Array = field(default_factory=lambda: np.zeros(2))
+    """[2] from its middle as it is placed to that at time 0: half its way back, m."""
 
     @property
     def middle(self) -> Float64Array:
@@ -75,6 +84,17 @@ class ObjectGroup:
         if self.row_m is None:
             return self.centre
         return np.asarray(self.centre + np.mean(self.offsets, axis=0))
+
+    @property
+    def begin(self) -> Float64Array:
+        """[2] its middle at time 0, once it is placed, m."""
+        return np.asarray(self.middle[:2] + self.lag_m)
+
+    @property
+    def is_going(self) -> bool:
+        """Whether it leaves its place or turns at any time."""
+        path = self.plan.path
+        return self.plan.motion.is_moving or not (path is None or path.is_resting)
 
     @property
     def size_m(self) -> float:
@@ -110,6 +130,13 @@ class ObjectGroup:
     def fit(self) -> None:
         """Work out the room that it takes, after its plan or its copies' places have changed."""
         self.half = half_extents_over_clip(self.models, self.offsets, self.plan)
+
+    def gather(self) -> None:
+        """Move the middle of one that stands in a row of others to where it is there."""
+        if len(self.offsets) == 1 and any(self.offsets[0]):
+            self.centre = self.centre + np.array(self.offsets[0])
+            self.offsets = [(0.0, 0.0, 0.0)]
+            self.fit()
 
     def half_at_rest(self) -> Float64Array:
         """[3] half extents of all copies where they stand, without their way, m."""

@@ -26,7 +26,10 @@ from texvent_scenes.staging.placement.along_route import RoutePlacer
 from texvent_scenes.staging.placement.apart import (
     RESTING,
     NoRoomError,
+    borne_places,
+    is_measured,
     list_awaited,
+    list_beside,
     list_unkept,
     plan_spacing,
 )
@@ -125,6 +128,9 @@ class ObjectPlacer:
         for index in sorted(range(len(objects)), key=lambda one: objects[one].position_m is None):
             if index not in self.orphans:
                 self._place(index, frozenset())
+        for n, why in list_beside(self._description, self.groups):
+            x, y = objects[n].position_m or (0.0, 0.0)
+            raise ConfigError(f"objects[{n}].position_m is [{x:g}, {y:g}], {why}; give another one")
         for one, why in list_unkept(self._description, self.groups):
             self._tell_distance(one, why)
         actors: list[Actor] = []
@@ -165,6 +171,12 @@ class ObjectPlacer:
         plan = plan_motion(
             motions, noun, models[0], self._duration_s, rng, start_m, heading_deg
         )  # fmt: skip
+        is_open = heading_deg is None and all(one.direction != "diagonal" for one in motions)
+        if is_open and is_measured(self._description, index):  # square to the axes
+            heading_deg = 90.0 * round(math.degrees(plan.yaw) / 90.0)
+            plan = plan_motion(
+                motions, noun, models[0], self._duration_s, rng, start_m, heading_deg
+            )  # fmt: skip
         offsets = stagger(models, plan, noun, rng, is_row=bool(rows))
         half = half_extents_over_clip(models, offsets, plan)
         return ObjectGroup(index, scene_object, noun, models, plan, offsets, half)
@@ -184,22 +196,30 @@ class ObjectPlacer:
         goal = self._choose_goal(group, related)
         self._match_paces(group)
         group.centre = self._find_free_position(group, goal)
+        group.gather()
         self._start_where_said(group)
         self.groups[index] = group
 
     def _start_where_said(self, group: ObjectGroup) -> None:
-        """Move a group so that its first copy starts at the place and height of the scene, m."""
+        """Move a group so that it starts at the place and height of the scene, m.
+
+        A position is that of its first copy, other metres are to the middle of all.
+        """
         said, height_m = group.scene_object, group.scene_object.height_m
-        if said.position_m is None and height_m is None:
-            return
-        x, y, z = group.centre + np.array(group.offsets[0])
+        first = group.centre + np.array(group.offsets[0])
         rng = seeded(self._seed, "lead", group.index, group.noun.name)
-        start = self._choose(group, group.models[0], (x, y, z), 0, rng).at(0.0).position
+        start = self._choose(group, group.models[0], point(first), 0, rng).at(0.0)
+        group.lag_m = np.subtract(start.position[:2], first[:2])
+        if group.plan.motion.kind == "spin" and group.plan.spin_axis == "yaw":
+            # What is on it is placed, and measured, as it is turned at first.
+            group.plan = replace(group.plan, yaw=start.yaw)
         if said.position_m is not None:
-            group.centre[:2] += np.subtract(said.position_m, start[:2])
+            group.centre[:2] += np.subtract(said.position_m, start.position[:2])
+        elif group.begins is not None:
+            group.centre[:2] += group.begins - group.begin
         if height_m is None:
             return
-        lift = height_m - lowest_point(group.models[0]) - float(start[2])
+        lift = height_m - lowest_point(group.models[0]) - float(start.position[2])
         if group.plan.start_m is None:
             group.centre[2] += lift
         else:  # it comes down to where it is, which may be a table
@@ -231,13 +251,13 @@ class ObjectPlacer:
             if relation.kind in INVERSE and relation.targets[0] in self.groups:
                 target = self.groups[relation.targets[0]]
                 goal = place_by_subject(group, INVERSE[relation.kind], target, height)
-                return place_at_distance(goal, relation, target, 1.0)
+                return place_at_distance(goal, group, relation, target, 1.0)
         for relation in sorted(self._description.relations, key=lambda one: one.distance_m is None):
             if group.index in relation.targets and relation.subject in self.groups:
                 subject = self.groups[relation.subject]
                 goal = place_by_subject(group, relation.kind, subject, height)
                 goal = self._one_after_another(goal, group, subject, relation)
-                return place_at_distance(goal, relation, subject, -1.0)
+                return place_at_distance(goal, group, relation, subject, -1.0)
         if self._along is not None:
             scene = self._description
             is_goal = scene.index(scene.camera.target) == group.index
@@ -309,6 +329,10 @@ class ObjectPlacer:
 
     def _choose_free_goal(self, group: ObjectGroup, height: float) -> Goal:
         """In the middle, or at the side of the image that the scene says."""
+        borne = borne_places(self._description, group.index)
+        if borne and group.scene_object.position_m is None:  # it is below what it bears
+            x, y = group.begins = np.mean([np.min(borne, axis=0), np.max(borne, axis=0)], axis=0)
+            return Goal(np.array([x, y, height]), np.zeros(3))
         side = group.scene_object.placement or ""
         offset = _SIDES.get(side, 0.0) * 2.0 * group.size_m
         offset += self._spread_apart(group) + self._stagger(group)

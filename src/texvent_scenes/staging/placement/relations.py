@@ -247,15 +247,16 @@ def _shift(place: Float64Array, x: float, y: float) -> Float64Array:
 
 
 def place_at_distance(
-    goal: Goal, relation: IndexedRelation, other: ObjectGroup, sign: float
+    goal: Goal, group: ObjectGroup, relation: IndexedRelation, other: ObjectGroup, sign: float
 ) -> Goal:
-    """The goal at the distance of the relation to another group, if it has one.
+    """The goal of a group at the distance of the relation to another one, if it has one.
 
     `sign` is 1 for the goal of the relation's subject, -1 for that of a target.
     """
     if relation.distance_m is None:
         return goal
-    place = other.middle[:2] + sign * relation.distance_m * np.array(SIDES[relation.kind])
+    place = other.begin + sign * relation.distance_m * np.array(SIDES[relation.kind])
+    group.begins = place
     return Goal(np.array([*place, goal.position[2]]), _FIXED)
 
 
@@ -272,7 +273,7 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
     kind, is_person = group.plan.motion.kind, group.noun.name in PERSON_NOUNS
     if (on_face := _rest_on_face(group, target, neighbours)) is not None:
         return on_face
-    if target.plan.motion.is_moving:
+    if target.is_going:
         group.carrier = target
     if is_person and _sits(group, target):
         return _seat_on(group, target, neighbours)
@@ -285,7 +286,7 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
         leap_up(group, target, support)
     if kind == "stand":
         carry_along(group, target, support)
-    elif group.plan.is_path and not target.plan.motion.is_moving:
+    elif group.plan.is_path and not target.is_going:
         stop_at_edge(group, target, support)
     _turn_along(group, target, support)
     group.fit()
@@ -323,7 +324,7 @@ def _put_on_face(group: ObjectGroup, target: ObjectGroup) -> Float64Array:
     """
     own, face = group.models[0], target.models[0]
     turns = target.plan.motion.kind == "spin"
-    if target.plan.motion.is_moving:
+    if target.is_going:
         group.carrier = target
     group.fit()
     up_m = 0.5 * (face.height - own.height) + _OFF_MIDDLE * face.height * turns
@@ -336,6 +337,7 @@ def _hang_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
     face_m = float(bounds(wall.parts(Pose(0.0, 0.0, 0.0, "stand"))[:1])[1][0])
     support = Support(0.0, (0.0, -0.45 * wall.width), (0.0, 0.45 * wall.width))
     line_up(group, target, support, neighbours)
+    group.bearer = None  # it hangs before the face
     group.plan = replace(group.plan, yaw=target.plan.yaw)
     group.fit()
     low_m = max(_HUNG * wall.height - 0.5 * own.height, 0.02 * wall.height)
@@ -375,7 +377,7 @@ def rest_in(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
     """As `rest_on`, in a container so that its top looks out, and unseen in what is closed."""
     open_below = nouns_with("passage") | nouns_with("stood in")
     if target.noun.name in nouns_with("closed") | open_below:
-        if target.plan.motion.is_moving:
+        if target.is_going:
             group.carrier = target
         low = 0.05 * target.models[0].height if target.noun.name in nouns_with("closed") else 0.0
         return target.to_world(0.0, 0.0, low + group.origin_m)
@@ -391,7 +393,7 @@ def rest_in(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
 def _put_in(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
     """The middle of a group in a container, where what goes somewhere goes to and fro."""
     support = hollow_of(target)
-    if target.plan.motion.is_moving:
+    if target.is_going:
         group.carrier = target
     reach_m = reach_of(group.models[0], len(neighbours))
     line_up(group, target, support, neighbours, reach_m)

@@ -40,6 +40,7 @@ def line_up(
     Small things for which a row is too long stand in several. `reach_m` is the extent of one along
     that side; None: that of its longer side.
     """
+    group.bearer = (target, support) if len(target.offsets) == 1 else None
     body, own, several = target.models[0], len(group.offsets), len(target.offsets)
     is_apart = group.spacing is not None and several == 1
     neighbours = [group.index] * own if is_apart else neighbours
@@ -79,7 +80,12 @@ def _keep_apart(
     group: ObjectGroup, target: ObjectGroup, support: Support, spacing: Spacing
 ) -> None:
     """Put the row of a group's copies where distances have it on the support."""
-    place, group.row_m = spacing.place(group.index, target, support)
+    spot = spacing.place(group.index, target, support)
+    group.row_m = spot.length_m
     offsets = np.array(group.offsets)
-    offsets[:, :2] += place - offsets[:, :2].mean(axis=0)
+    offsets[:, :2] += spot.place - offsets[:, :2].mean(axis=0)
     group.offsets = [point(one) for one in offsets]
+    if spacing.fixed:
+        middle = target.to_world(*support.middle, 0.0)[:2]
+        group.begins = np.asarray(middle + target.lag_m + spot.place)
+        group.ends_m = spot.ends_m
