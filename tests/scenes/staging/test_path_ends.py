@@ -88,6 +88,7 @@ def test_who_leaves_a_top_starts_on_it(what):
         assert one.lowest_m(0.0) == pytest.approx(top, abs=0.05), who
         if motion != "rise":
             assert one.lowest_m(DURATION_S) == pytest.approx(0.0, abs=0.06), who
+            assert one.track.at(DURATION_S).speed_m_s == 0.0, who
         assert holds("off", one, other, motion), who
 
 
