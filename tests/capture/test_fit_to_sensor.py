@@ -33,21 +33,21 @@ def test_sixteen_bits_come_out_on_the_0_to_255_scale():
     assert small[3, 0] == pytest.approx(255.0)
 
 
-def test_cover_cuts_evenly():
-    pixels = np.tile(np.arange(8, dtype=np.uint8), (4, 1))
-    assert fit_pixels(pixels, SensorSize(4, 4), "cover")[0].tolist() == [2, 3, 4, 5]
-
-
-def test_contain_adds_black_bars_evenly():
-    wide = np.full((2, 4, 3), 90, np.uint8)
-    fitted = fit_pixels(wide, SensorSize(4, 4), "contain")
-    assert fitted[:, 0, 0].tolist() == [0, 90, 90, 0]
-
-
-def test_stretch_shrinks_one_side_and_enlarges_the_other():
-    pixels = np.repeat(np.array([[10.0], [20.0]], np.float32), 8, axis=1)
-    fitted = fit_pixels(pixels, SensorSize(2, 4), "stretch")
-    assert fitted[:, 0].tolist() == [10.0, 12.5, 17.5, 20.0]
+@pytest.mark.parametrize(
+    ("fit", "column", "size", "expected"),
+    [
+        ("cover", range(8), (4, 4), [2, 3, 4, 5]),
+        ("contain", [90, 90], (4, 4), [0, 90, 90, 0]),
+        ("stretch", [10.0, 20.0], (2, 4), [10.0, 12.5, 17.5, 20.0]),
+    ],
+)
+def test_each_fit_cuts_fills_or_stretches_evenly(fit, column, size, expected):
+    """Columns that are cut, filled with black bars, or enlarged while their rows shrink."""
+    kind = np.float32 if fit == "stretch" else np.uint8
+    grey = np.repeat(np.array(column, kind)[:, None], 8 if fit == "stretch" else 4, axis=1)
+    for pixels in (grey, np.stack([grey] * 3, axis=-1)):
+        fitted = fit_pixels(pixels, SensorSize(*size), fit)
+        assert fitted.reshape(size[1], size[0], -1)[:, 0, -1].tolist() == expected
 
 
 @given(sides, sides, sides, sides, st.sampled_from(["cover", "contain", "stretch"]))

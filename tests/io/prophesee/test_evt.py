@@ -1,8 +1,9 @@
-"""RAW files: the header tells the formats apart."""
+"""RAW files, whose header tells the formats apart, and DAT."""
 
 import subprocess
 import sys
 import tracemalloc
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -19,12 +20,13 @@ from texvent.io.prophesee.evt import SAMPLE, Evt2Codec, Evt3Codec, Evt21Codec
 from .prophesee_files import (
     EXTENSIONS,
     FORMATS,
+    HEADERS,
     at_times,
     events_of,
     row_bursts,
     write_words,
 )
-from .slow_words import decode_evt2, decode_evt3, decode_evt21
+from .slow_words import decode_dat, decode_evt2, decode_evt3, decode_evt21
 
 EVT = ("evt2", "evt21", "evt3")
 
@@ -176,26 +178,53 @@ def test_control_bytes_end_a_header_without_an_end_line(tmp_path):
     assert load(path).t.tolist() == [64]
 
 
+DAT = HEADERS["dat"].encode()
+
+
 @pytest.mark.parametrize(
-    ("content", "message"),
+    ("name", "content", "message"),
     [
-        (b"", "names no format"),
-        (b"\x00\x80\x01\x60", "names no format"),
-        (b"% date 2026-11-20\n% end\n\x00\x80", "names no format"),
-        (b"% evt 4.0\n% end\n", "its header names '4.0'"),
-        (b"% format HISTO3D;height=320;width=320\n% end\n", "its header names 'HISTO3D'"),
-        (b"% evt 3.0\n% geometry 12", "ends inside its header"),
-        (b"% evt 3.0\n% geometry 1280x720\n", "ends inside its header"),
-        (b"% evt 3.0\n% geometry 1280\n% end\n", "states a size of ''"),
-        (b"% evt 3.0\n% geometry 0x720\n% end\n", "impossible sensor size 0x720"),
-        (b"% evt 3.0\n% geometry 99999999999x720\n% end\n", "states a size of '9999"),
-        (b"% evt 3.0\n% geometry 4x4\n% texvent {\n% end\n", "damaged metadata"),
-        (b"% evt 3.0\n% geometry 4x4\n% end\n\x00", "ends inside a record of 2 bytes"),
-        (b"% evt 3.0\n% geometry 4x4\n% end\n\x01\x80\x00\x00\x04\x20", "x runs from 4 to 4"),
+        ("e.raw", b"", "names no format"),
+        ("e.raw", b"\x00\x80\x01\x60", "names no format"),
+        ("e.raw", b"% date 2026-11-20\n% end\n\x00\x80", "names no format"),
+        ("e.raw", b"% evt 4.0\n% end\n", "its header names '4.0'"),
+        ("e.raw", b"% format HISTO3D;height=320;width=320\n% end\n", "its header names 'HISTO3D'"),
+        ("e.raw", b"% evt 3.0\n% geometry 12", "ends inside its header"),
+        ("e.raw", b"% evt 3.0\n% geometry 1280x720\n", "ends inside its header"),
+        ("e.raw", b"% evt 3.0\n% geometry 1280\n% end\n", "states a size of ''"),
+        ("e.raw", b"% evt 3.0\n% geometry 0x720\n% end\n", "impossible sensor size 0x720"),
+        ("e.raw", b"% evt 3.0\n% geometry 99999999999x720\n% end\n", "states a size of '9999"),
+        ("e.raw", b"% evt 3.0\n% geometry 4x4\n% texvent {\n% end\n", "damaged metadata"),
+        ("e.raw", b"% evt 3.0\n% geometry 4x4\n% end\n\x00", "ends inside a record of 2 bytes"),
+        (
+            "e.raw",
+            b"% evt 3.0\n% geometry 4x4\n% end\n\x01\x80\x00\x00\x04\x20",
+            "x runs from 4 to 4",
+        ),
+        ("e.dat", b"", "ends inside its header"),
+        ("e.dat", b"\x0c\x08" + bytes(8), "no header of `% key value` lines"),
+        ("e.dat", DAT, "ends inside its header"),
+        ("e.dat", DAT + b"\x0c", "ends inside its header"),
+        ("e.dat", DAT[:-1], "ends inside its header"),
+        ("e.dat", DAT + b"\x0e\x08", "type 14 with 8 bytes"),
+        ("e.dat", DAT + b"\x0c\x04", "type 12 with 4 bytes"),
+        (
+            "e.dat",
+            HEADERS["dat"].replace("Version 2", "Version 1").encode() + b"\x0c\x08",
+            "version '1'",
+        ),
+        ("e.dat", HEADERS["dat"].replace("720", "many").encode() + b"\x0c\x08", "size of 'many'"),
+        (
+            "e.dat",
+            HEADERS["dat"].replace("720", "0").encode() + b"\x0c\x08",
+            "impossible sensor size",
+        ),
+        ("e.dat", DAT + b"\x0c\x08" + bytes(7), "inside a record of 8 bytes"),
+        ("e.dat", DAT + b"\x0c\x08" + b"\xff" * 8, "x runs from 16383"),
     ],
 )
-def test_a_damaged_file_is_one_clear_line(tmp_path, content, message):
-    path = tmp_path / "e.raw"
+def test_a_damaged_file_is_one_clear_line(tmp_path, name, content, message):
+    path = tmp_path / name
     path.write_bytes(content)
     with pytest.raises(FileFormatError, match=message) as caught:
         load(path)
@@ -266,3 +295,25 @@ def test_memory_does_not_grow_with_the_file(tmp_path, format, monkeypatch):
     read = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     assert max(written, read) < whole / 3
+
+
+def record(x: int, y: int, t: int, p: int) -> int:
+    return (p << 28 | y << 14 | x) << 32 | t
+
+
+def test_the_bytes_written_are_those_of_the_description(tmp_path: Path) -> None:
+    events = at_times(5, 2**32 - 1)
+    data = save(tmp_path / "e.dat", events).read_bytes()
+    header = b'% Height 720\n% Version 2\n% Width 1280\n% texvent {"seed": 0}\n\x0c\x08'
+    assert data[: len(header)] == header
+    assert decode_dat(data[len(header) :]) == events_of(events)
+
+
+def test_older_headers_without_space_or_size_are_read(tmp_path: Path) -> None:
+    header = "% Data file containing CD events.\n% Version 2\n% Date 2014-06-11 14:11:35\n"
+    path = write_words(tmp_path, "dat", [record(1, 2, 3, 1)], header=header)
+    with pytest.raises(InputError, match="does not store the sensor size"):
+        load(path)
+    events = load(path, size=(304, 240))
+    assert events_of(events) == [(1, 2, 3, 1)]
+    assert events.metadata["header"]["Date"] == "2014-06-11 14:11:35"
