@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 import pytest
 from tests.scenes.every_row import for_every
-from tests.scenes.staging.test_distances_on_supports import WAYS, place, try_to_place
+from tests.scenes.staging.test_distances_on_supports import WAYS, place_by_id, try_to_place
 
 from texvent.errors import ConfigError
 from texvent_scenes.spec.scene import Motion, Relation, SceneObject
@@ -74,9 +74,9 @@ def test_a_position_beside_what_a_thing_is_on_is_refused(row):
     objects = [objects[n] for n in order]
     if is_far:
         with pytest.raises(ConfigError, match=r"^objects\[\d\]\.position_m is \[4, 2\], which is "):
-            place(*objects)
+            place_by_id(*objects)
     else:
-        np.testing.assert_allclose(start(place(*objects)["one"]), (x, 2.0), atol=1e-6)
+        np.testing.assert_allclose(start(place_by_id(*objects)["one"]), (x, 2.0), atol=1e-6)
 
 
 @for_every(itertools.product(SUPPORTS, itertools.permutations(range(2)), (2, 3)))
@@ -87,7 +87,7 @@ def test_a_support_of_no_place_is_below_the_positions_of_what_is_on_it(row):
     borne = [SceneObject(thing, id=str(n), size=0.4, relations=(on,), position_m=places[n])
              for n, thing in enumerate(things[: count - 1])]  # fmt: skip
     objects = [SceneObject(support, id="below", motions=motions), *borne]
-    placed = place(*(objects if order == (0, 1) else objects[::-1]))
+    placed = place_by_id(*(objects if order == (0, 1) else objects[::-1]))
     for n, said in enumerate(places):
         np.testing.assert_allclose(start(placed[str(n)]), said, atol=1e-6)
 
@@ -107,7 +107,7 @@ def test_distances_of_who_goes_hold_at_time_0(row):
                         position_m=(2.0, 5.0) if is_stated else None)  # fmt: skip
     second = SceneObject(other, id="other", motions=motions(its_kind, its_speed),
                          relations=(Relation(relation, ("one",), 6.0),))  # fmt: skip
-    placed = place(*((first, second)[n] for n in order))
+    placed = place_by_id(*((first, second)[n] for n in order))
     apart = start(placed["other"]) - start(placed["one"])
     np.testing.assert_allclose(apart, 6.0 * np.array(WAYS[relation]), atol=1e-6)
     if is_stated:
@@ -135,7 +135,7 @@ def test_two_positions_that_contradict_a_distance_are_refused(row):
 def test_others_make_way_for_what_has_a_position(row):
     support, noun, x = row
     on = (Relation("on", ("below",)),)
-    placed = place(SceneObject(support, id="below", position_m=(0.0, 0.0)),
+    placed = place_by_id(SceneObject(support, id="below", position_m=(0.0, 0.0)),
                    SceneObject(noun, id="one", size=0.6, position_m=(x, 0.0), relations=on),
                    SceneObject(noun, id="other", size=0.6, relations=on))  # fmt: skip
     apart = np.linalg.norm(start(placed["one"]) - start(placed["other"]))
