@@ -16,7 +16,7 @@ from texvent_scenes.spec.scene import Camera, Effect, Light, Motion, Place, Scen
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.compose import ComposedScene, compose_scene
 from texvent_scenes.staging.placement.object_placement import ObjectPlacer
-from texvent_scenes.staging.surroundings.environment import RoadLine
+from texvent_scenes.staging.surroundings.road_line import RoadLine
 
 SIZE = SensorSize(173, 130)
 DURATION_S = 2.0

@@ -11,7 +11,7 @@ from texvent_scenes.checks.placement import find_misplaced
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.scene_input import list_nouns, understand
-from texvent_scenes.staging.surroundings.environment import RoadLine
+from texvent_scenes.staging.surroundings.road_line import RoadLine
 
 TIMES = np.linspace(0.0, 2.0, 21)
 DRIVEN = ["car", "bus", "motorcycle", "truck", "van", "cyclist", "tractor"]

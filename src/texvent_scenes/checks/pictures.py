@@ -27,7 +27,8 @@ from texvent_scenes.staging.actors import Actor, PlacedModel, assemble
 from texvent_scenes.staging.compose import ComposedScene
 from texvent_scenes.staging.particles.choose import FALLING, Staged
 from texvent_scenes.staging.particles.emitter import Emitter
-from texvent_scenes.staging.surroundings.environment import RoadLine, build_environment
+from texvent_scenes.staging.surroundings.environment import build_environment
+from texvent_scenes.staging.surroundings.road_line import RoadLine
 from texvent_scenes.staging.tracks.phases import PATH_KINDS
 
 _SIZE, _LEAST_LEVELS, _WHITE, _LEAST_SHARE = SensorSize(120, 90), 6.0, 30.0, 0.002

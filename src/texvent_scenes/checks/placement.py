@@ -25,7 +25,8 @@ from texvent_scenes.rendered_scene import Environment, Float64Array, Ground
 from texvent_scenes.spec.data import ACTED, WAYS
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.placement.zones import zone_of
-from texvent_scenes.staging.surroundings.environment import RoadLine, lies_ashore
+from texvent_scenes.staging.surroundings.environment import lies_ashore
+from texvent_scenes.staging.surroundings.road_line import RoadLine
 
 _FREE = frozenset({"fly", "hover", "float", "rise", "sink", "fall", "jump", "bounce", "swing",
                    "throw", "orbit", "swim", "surf", "sail", "paddle", "row", "hang", "topple",

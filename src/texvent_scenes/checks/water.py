@@ -12,7 +12,7 @@ from texvent_scenes.checks.staged_clip import StagedClip
 from texvent_scenes.description import Claim, SceneDescription
 from texvent_scenes.rendered_scene import Float64Array, Ground
 from texvent_scenes.staging.compose import ComposedScene
-from texvent_scenes.staging.surroundings.environment import RoadLine
+from texvent_scenes.staging.surroundings.road_line import RoadLine
 from texvent_scenes.staging.tracks.phases import schedule
 
 _INSTANTS, _HALF, _LEAST_CLIP_S = 9, 0.5, 1.0

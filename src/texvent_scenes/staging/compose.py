@@ -38,17 +38,19 @@ from texvent_scenes.staging.placement.object_placement import ObjectPlacer
 from texvent_scenes.staging.placement.zones import keep_to_zones, zone_of
 from texvent_scenes.staging.surroundings.environment import (
     AnimatedEnvironment,
-    RoadLine,
     build_environment,
     contrasting,
-    find_road,
-    lay_across,
-    list_flyers_above,
     water_line,
 )
 from texvent_scenes.staging.surroundings.lamps import LampPlan, plan_lamps
 from texvent_scenes.staging.surroundings.lighting import DARK, choose_lighting, is_unlit_room
 from texvent_scenes.staging.surroundings.pieces import SceneryItem, ViewClearance
+from texvent_scenes.staging.surroundings.road_line import (
+    RoadLine,
+    find_road,
+    lay_across,
+    list_flyers_above,
+)
 from texvent_scenes.staging.surroundings.scenery import scatter
 from texvent_scenes.staging.tracks.phases import schedule
 

@@ -20,7 +20,7 @@ from texvent_scenes.raycast.shading.value_noise import box_coverage, square_wave
 from texvent_scenes.raycast.surfaces.catalogue import CHANNELS, LEVELS, SURFACES, build_tile
 from texvent_scenes.raycast.surfaces.fields import SIDE
 from texvent_scenes.rendered_scene import Ground, Texture
-from texvent_scenes.staging.surroundings.environment import RoadLine
+from texvent_scenes.staging.surroundings.road_line import RoadLine
 
 Floats = np.ndarray
 

@@ -20,7 +20,7 @@ from texvent_scenes.spec.scene import Motion, Scene, SceneObject
 from texvent_scenes.staging.placement.object_groups import GAP_M
 from texvent_scenes.staging.placement.object_groups import overlap as groups_overlap
 from texvent_scenes.staging.placement.object_placement import ObjectPlacer
-from texvent_scenes.staging.surroundings.environment import RoadLine
+from texvent_scenes.staging.surroundings.road_line import RoadLine
 
 TIMES = np.linspace(0.0, 2.0, 9)
 

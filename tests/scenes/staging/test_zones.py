@@ -20,8 +20,8 @@ from texvent_scenes.spec.scene import Camera, CameraMove, Motion, Place, Scene, 
 from texvent_scenes.staging.actors import Actor, seeded
 from texvent_scenes.staging.compose import compose_scene, kind_of
 from texvent_scenes.staging.placement.zones import zone_of
-from texvent_scenes.staging.surroundings.environment import RoadLine
 from texvent_scenes.staging.surroundings.pieces import ViewClearance
+from texvent_scenes.staging.surroundings.road_line import RoadLine
 from texvent_scenes.staging.surroundings.scenery import scatter
 
 TIMES_S = np.linspace(0.0, 2.0, 9)

@@ -236,7 +236,7 @@ def _claim_levels(draft: SceneDraft) -> None:
         is_flyer = any(one.has("verb") for one in said) and not any(
             one.has("camera", "shot") for one in said
         )
-        own = [n for n in flying if is_flyer][-1:] or [None]
+        own: list[int | None] = [*(flying[-1:] if is_flyer else ())] or [None]
         draft.claim(token, "eye level", "", own)
 
 

@@ -14,7 +14,7 @@ from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.places import PLACES
 from texvent_scenes.rendered_scene import Ground
 from texvent_scenes.staging.camera.camera_track import Journey, TimedMove, time_moves
-from texvent_scenes.staging.surroundings.environment import RoadLine, with_crossing
+from texvent_scenes.staging.surroundings.road_line import RoadLine, with_crossing
 from texvent_scenes.staging.tracks.keys import Key
 from texvent_scenes.staging.tracks.track import Track
 

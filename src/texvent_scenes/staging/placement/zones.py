@@ -23,7 +23,8 @@ from texvent_scenes.rendered_scene import Float64Array, Ground
 from texvent_scenes.spec.data import ACTED, WAYS
 from texvent_scenes.spec.scene import SceneObject
 from texvent_scenes.staging.actors import Actor, is_centred
-from texvent_scenes.staging.surroundings.environment import RoadLine, find_road, is_afloat
+from texvent_scenes.staging.surroundings.environment import is_afloat
+from texvent_scenes.staging.surroundings.road_line import RoadLine, find_road
 from texvent_scenes.staging.tracks.phases import PATH_KINDS
 
 _CLEAR_M, _RAILS_M = 0.6, 1.3

@@ -15,7 +15,7 @@ from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import PlacedModel
 from texvent_scenes.staging.camera.framing import image_of
 from texvent_scenes.staging.camera.journey import TravelPlan
-from texvent_scenes.staging.surroundings.environment import RoadLine
+from texvent_scenes.staging.surroundings.road_line import RoadLine
 from texvent_scenes.staging.tracks.track import BodyState
 
 ASPECT = 0.75
