@@ -33,9 +33,10 @@ def test_all_pairs_of_a_short_clip_are_counted():
     assert "6 of 6 pairs" in said
 
 
-def test_what_happens_late_in_a_clip_is_counted():
-    """A clip that stands still until its half and then flickers as much at every frame."""
-    steps = np.arange(60) // 2 * 60 % 120 * (np.arange(60) >= 30)
+@pytest.mark.parametrize("begin", [30, 50])
+def test_what_happens_late_in_a_clip_is_counted(begin):
+    """A clip that stands still at first and then flickers as much at every frame."""
+    steps = np.arange(60) // 2 * 60 % 120 * (np.arange(60) >= begin)
     frames = np.broadcast_to((60 + steps)[:, None, None], (60, 12, 16)).astype(np.uint8)
     said = estimate(frames)
     true = len(texvent.simulate(frames, fps=50, **OPTIONS))

@@ -42,6 +42,19 @@ def test_a_file_goes_through_every_format_and_comes_back(recording, capsys):
     assert capsys.readouterr().out == ""
 
 
+def test_edits_of_one_command_are_made_in_the_order_of_its_help(recording):
+    """Given in another order, and one command after another."""
+    words = {"filter": "refractory:period_us=500", "crop": "20,10,300,240", "resize": "150x96",
+             "rotate": "90", "flip": "x", "from-zero": "", "time": "0.1,0.6"}  # fmt: skip
+    given = [f"--{name}={value}" if value else f"--{name}" for name, value in words.items()]
+    assert run("convert", "in.h5", "all.h5", "-q", *given[::-1]) == 0
+    for number, word in enumerate(given):
+        source = f"{number - 1}.h5" if number else "in.h5"
+        assert run("convert", source, f"{number}.h5", "-q", word) == 0
+    assert len(load("all.h5")) > 100
+    assert load("all.h5").equals(load(f"{len(given) - 1}.h5"))
+
+
 def test_a_file_is_not_merged_with_itself(recording, capsys):
     Path("link.h5").symlink_to("in.h5")
     words = ["in.h5", "two.h5", "--merge", "link.h5"]
