@@ -57,7 +57,7 @@ def find_misframed(
         held = near_part(main, "close", np.array(times))
         shares = [_extent(*each, size) for each in zip(held, cameras, strict=True)]
         if np.mean(np.array(shares) >= _CLOSE) < _HALF:
-            line = f"{_SAID['close']} of the {main.noun.name}: it is small in the image"
+            line = f"{_SAID['close']} of the {main.name}: it is small in the image"
             yield Violation("framing", "close", line)
     rule = _VIEWS.get(shot.view or "")
     has_view = [rule is None or rule(*each, main) for each in zip(cameras, times, strict=True)]
@@ -70,7 +70,7 @@ def find_misframed(
     if "follow" in kinds and scene.actors:
         followed = _find_followed(scene, description)
         if not _keeps_inside(followed, cameras, times, size):
-            line = f"follow of the camera: the {followed.noun.name} leaves the image"
+            line = f"follow of the camera: the {followed.name} leaves the image"
             yield Violation("move", "follow", line)
     met = _find_met(scene, times) if set(kinds) - _TURNING else ""
     for kind in kinds:
