@@ -11,7 +11,13 @@ from dataclasses import replace
 
 from texvent_scenes.default_places import AFLOAT_MOTIONS, AT_HAND, choose_place
 from texvent_scenes.default_work import is_work, list_work, work_of, works_by_turns
-from texvent_scenes.description import SPIN_RATE_HZ, STANDING, IndexedRelation, SceneDescription
+from texvent_scenes.description import (
+    SPIN_RATE_HZ,
+    STANDING,
+    IndexedRelation,
+    SceneDescription,
+    label_of,
+)
 from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS, TRAVELLING
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.places import PLACES, is_room
@@ -50,7 +56,7 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     What lives in the air or in water moves unless it is said to rest. When nothing moves, the
     first object that can move does what it usually does; when none can, the camera sways.
     """
-    description = description if description.prompt else _set_on_routes(description, nouns)
+    description = _set_on_routes(description, nouns)
     description = _rest(_set_down(_strike_far(_set_far(_ground(description)))), nouns)
     objects = tuple(
         replace(one, motions=decide_motions(one.motions, nouns[one.noun]))
@@ -70,9 +76,10 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
         description = _set_afloat(description, nouns)
     for note in _list_floored(description, place):
         description = _note(description, note)
-    for one in description.objects:
+    for n, one in enumerate(description.objects):
         if waits_to_fall(one):
-            description = _note(description, f"the {one.noun} hangs on a thread until it falls")
+            note = f"the {label_of(description, n)} hangs on a thread until it falls"
+            description = _note(description, note)
     if not _has_motion(description, nouns):
         description = _set_in_motion(description, nouns)
     everything = range(len(description.objects))
@@ -401,7 +408,8 @@ def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
     for n, one in able:
         usual = _usual_motion(description, nouns[one.noun])
         if one.motion is None and usual != "stand" and n not in held:
-            note = f"no motion is said of the {one.noun}, so it does what it usually does"
+            name = label_of(description, n)
+            note = f"no motion is said of the {name}, so it does what it usually does"
             return _note(_move(description, {n: Motion(usual)}), note)
     is_seen = description.light.flicker_hz is not None
     if is_seen or description.place.weather in ("rain", "snow"):

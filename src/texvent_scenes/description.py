@@ -80,9 +80,30 @@ class SceneDescription(Scene):
     notes: tuple[str, ...] = ()
     """Decisions where the scene leaves a choice open, as sentences."""
 
+    @property
+    def is_sentence(self) -> bool:
+        """Whether a sentence was read; a file may have a `prompt` too."""
+        return self.words != PromptReport()
+
     def index(self, id: str | None) -> int | None:
         """Index of the object of an id."""
         return None if id is None else object_ids(self).index(id)
+
+
+def label_of(description: SceneDescription, index: int) -> str:
+    """Name of an object in lines: its noun, or its id in a file that has several of the noun.
+
+    Example:
+        >>> from texvent_scenes.spec.scene import SceneObject
+        >>> three = (SceneObject("car", id="taxi"), SceneObject("car"), SceneObject("tree"))
+        >>> [label_of(SceneDescription(objects=three), n) for n in range(3)]
+        ['car "taxi"', 'car "car 2"', 'tree']
+    """
+    noun = description.objects[index].noun
+    several = [one.noun for one in description.objects].count(noun) > 1
+    if not several or description.is_sentence:
+        return noun
+    return f'{noun} "{object_ids(description)[index]}"'
 
 
 def to_description(scene: Scene) -> SceneDescription:

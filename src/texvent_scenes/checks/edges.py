@@ -99,7 +99,7 @@ def list_covering(
         is_before = np.mean([near < far for near, far in depths]) >= _OFTEN
         if (is_before or one.object_index in lost) and float(np.median(shares)) >= _COVERS:
             share = f"{100.0 * float(np.median(shares)):.0f} %"
-            yield f"the {one.noun.name} covers {share} of the picture"
+            yield f"the {one.name} covers {share} of the picture"
 
 
 def _image_box(one: Actor, time_s: float, camera: PosedCamera, size: SensorSize) -> Float64Array:

@@ -36,7 +36,7 @@ from texvent_scenes.checks.shots import find_misframed
 from texvent_scenes.checks.staged_clip import is_inside
 from texvent_scenes.checks.water import find_wet_and_dry
 from texvent_scenes.checks.worn import find_unworn
-from texvent_scenes.description import SceneDescription
+from texvent_scenes.description import SceneDescription, label_of
 from texvent_scenes.meanings import list_meanings
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.raycast.ground_truth import count_unoccluded, visible_instances
@@ -114,7 +114,8 @@ def find_unseen(
     outside, small, bodies = list[str](), list[str](), list[list[BodyBoxes]]()
     notes = list[str]()
     unseen, partly = {*scene.missing}, set[int]()
-    for index, thing in enumerate(description.objects):
+    for index in range(len(description.objects)):
+        label = label_of(description, index)
         own = [one for one in scene.actors if one.object_index == index]
         seen_own = [_until_broken(one, views[one.instance], times) for one in own]
         bodies.append([body_of(one, cameras, times) for one, view in zip(own, seen_own, strict=True)
@@ -127,20 +128,21 @@ def find_unseen(
                 found = _Judged(is_unseen=False)
             most = max(view.pixels for view in seen_own)
             if found.words is None and most < _SMALL_AREA * size.width * size.height:
-                notes.append(f"the {thing.noun} is small in the picture: about {most} pixels")
+                notes.append(f"the {label} is small in the picture: about {most} pixels")
             lines = small if found.is_small else outside
-            lines += [f"{thing.noun}{found.words}"] if found.words is not None else []
+            lines += [f"{label}{found.words}"] if found.words is not None else []
+
             unseen |= {index} if found.is_unseen else set()
             partly |= {index} if found.is_partly else set()
     inside_one = _list_inside(description, scene.actors)
-    outside += [f"{description.objects[index].noun} (hidden)" for index in sorted(inside_one)]
+    outside += [f"{label_of(description, index)} (hidden)" for index in sorted(inside_one)]
     unseen, partly, hidden = unseen | inside_one, partly | inside_one, unseen - partly
     unseen |= {one.targets[0] for one in description.relations if one.subject in hidden
                and one.kind == "wear" and not any(bodies[one.targets[0]])}  # fmt: skip
     bodied = {one.object_index for one in scene.actors}
     riders = {one.subject for one in description.relations if one.kind == "ride"
               and one.targets[0] in unseen and one.subject not in bodied | unseen}  # fmt: skip
-    outside += [f"{description.objects[index].noun}" for index in sorted(riders)]
+    outside += [f"{label_of(description, index)}" for index in sorted(riders)]
     unseen |= riders
     lines, lost, cut, violations = _find_slight(scene, description, unseen, clip)
     outside, unseen, partly = outside + lines, unseen | lost | cut, partly | cut
@@ -191,9 +193,9 @@ def _find_slight(
     bare = {*find_unworn(scene, description, shares)} - {*unseen}
     cut = {*find_cut_subject(scene, description, cameras, times, size)} - {*unseen} - bare
     merged = [*find_merged(scene, description, cameras, times, size)]
-    lines = [f"{objects[index].noun} (hardly seen)" for index in sorted(bare)]
-    lines += [f"{objects[index].noun} (cut off most of the clip)" for index in cut]
-    lines += [f"{objects[index].noun} ({apart} of {objects[index].count})"
+    lines = [f"{label_of(description, index)} (hardly seen)" for index in sorted(bare)]
+    lines += [f"{label_of(description, index)} (cut off most of the clip)" for index in cut]
+    lines += [f"{label_of(description, index)} ({apart} of {objects[index].count})"
               for index, apart in merged if index not in {*unseen, *bare, *cut}]  # fmt: skip
     counts = [Violation("count", objects[index].count, "") for index, _ in merged]
     return lines, bare, cut, counts

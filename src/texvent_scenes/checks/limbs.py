@@ -10,7 +10,7 @@ from texvent.camera import PosedCamera, project
 from texvent.sensor import SensorSize
 from texvent_scenes.checks.body_boxes import is_any_inside
 from texvent_scenes.checks.relations import Violation
-from texvent_scenes.description import SceneDescription
+from texvent_scenes.description import SceneDescription, label_of
 from texvent_scenes.models.activities import (
     ACTIVITIES,
     ANIMAL_ACTIVITIES,
@@ -56,13 +56,13 @@ def find_tiny(
         size: of the image, pixels.
     """
     for index, said in enumerate(description.objects):
-        kinds = {one.kind for one in said.motions}
+        kinds, name = {one.kind for one in said.motions}, label_of(description, index)
         own = [one for one in actors if one.object_index == index]
         if own and said.noun in PERSON_NOUNS and kinds & _BY_HEAD and not _has_head(
             own, cameras, times, size
         ):  # fmt: skip
             for kind in sorted(kinds & _BY_HEAD):
-                yield Violation("motion", kind, f"the {said.noun}'s {kind}: its head is cut off")
+                yield Violation("motion", kind, f"the {name}'s {kind}: its head is cut off")
             continue
         able = own[0].noun.acts if own and own[0].noun.speed_m_s > 0.0 else frozenset()
         able |= _ACTS if said.noun in PERSON_NOUNS | HAND_NOUNS else frozenset()
@@ -71,7 +71,7 @@ def find_tiny(
         most = max(_limb_way(one, cameras, times, size) for one in own)
         if most < _LEAST_SHARE * size.height:
             for kind in sorted(kinds):
-                line = f"the {said.noun}'s {kind}: too small to be seen ({most:.1f} pixels)"
+                line = f"the {name}'s {kind}: too small to be seen ({most:.1f} pixels)"
                 yield Violation("motion", kind, line)
 
 

@@ -14,7 +14,7 @@ from texvent.camera import PosedCamera
 from texvent.sensor import SensorSize
 from texvent_scenes.checks.body_boxes import is_any_inside
 from texvent_scenes.checks.relations import Violation
-from texvent_scenes.description import SceneDescription
+from texvent_scenes.description import SceneDescription, label_of
 from texvent_scenes.models.activities import ACTIVITIES, MOUTH_ACTIVITIES, PERSON_NOUNS
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.rendered_scene import Float64Array, Ground
@@ -66,7 +66,8 @@ def find_undone(
         is_judged = own and said.motions[1:] and times[-1] >= _LEAST_CLIP_S
         for phase in schedule(said.motions, times[-1]) if is_judged else ():
             within = [n for n, at in enumerate(times) if phase.start_s <= at <= phase.end_s]
-            kind, line = phase.motion.kind, f"the {said.noun}'s {phase.motion.kind}"
+            kind = phase.motion.kind
+            line = f"the {label_of(description, index)}'s {kind}"
             if kind == "break":
                 continue  # only pieces of it are left
             ends_s = [one.breaks_s for one in own if one.breaks_s is not None]
@@ -92,20 +93,21 @@ def find_unhurried(
             continue
         least_m_s = _HURRIED * motion.pace * usual_speed(own[0].noun, motion.kind)
         if motion.kind in PATH_KINDS and max(_fastest(one, times) for one in own) < least_m_s:
-            yield Violation("pace", "", f"the {said.noun}'s {motion.kind} at {motion.pace:g} times "
-                            "its usual speed: it is slower")  # fmt: skip
+            yield Violation("pace", "", f"the {label_of(description, index)}'s {motion.kind} at "
+                            f"{motion.pace:g} times its usual speed: it is slower")  # fmt: skip
 
 
 def find_unfinished(description: SceneDescription, duration_s: float) -> Iterator[Violation]:
     """Acts with a beginning and an end that are so slow that the clip is over before: "slowly"."""
-    for said in description.objects:
+    for index, said in enumerate(description.objects):
         is_judged = bool(said.motions) and duration_s >= _LEAST_CLIP_S
         for phase in schedule(said.motions, duration_s) if is_judged else ():
             kind, pace = phase.motion.kind, phase.motion.pace
             act = ACTIVITIES.get(kind) if said.noun in PERSON_NOUNS else None
             done = (phase.end_s - phase.start_s) * pace * (act.repeats_hz if act else 0.0)
             if 0.0 < done < _DONE and pace < 1.0:
-                line = f"the {said.noun}'s {kind}: the clip ends before it is done"
+                name = label_of(description, index)
+                line = f"the {name}'s {kind}: the clip ends before it is done"
                 yield Violation("motion", kind, line)
 
 
@@ -130,7 +132,8 @@ def find_airborne_meals(
         is_fed = has_ground and any(_reaches_ground(one, times) for one in own)
         if kinds and is_loose and not is_fed:
             for kind in sorted(kinds):
-                yield Violation("motion", kind, f"the {said.noun}'s {kind}: it is in the air")
+                line = f"the {label_of(description, index)}'s {kind}: it is in the air"
+                yield Violation("motion", kind, line)
 
 
 def _reaches_ground(one: Actor, times: Sequence[float]) -> bool:
@@ -184,16 +187,16 @@ def list_departures(
     scene: ComposedScene, cameras: Sequence[PosedCamera], times: Sequence[float], size: SensorSize
 ) -> Iterator[str]:
     """Notes on what a static camera shows for a part of the clip only."""
-    told = {one.noun.name for one in scene.actors for note in scene.camera_path.notes
-            if note.startswith(f"the {one.noun.name} is fast")}  # fmt: skip
+    told = {one.name for one in scene.actors for note in scene.camera_path.notes
+            if note.startswith(f"the {one.name} is fast")}  # fmt: skip
     for one in scene.actors:
         inside = [is_any_inside(one.corners(time_s), camera, size)
                   for time_s, camera in zip(times, cameras, strict=True)]  # fmt: skip
-        if inside[0] and not inside[-1] and one.noun.name not in told:
+        if inside[0] and not inside[-1] and one.name not in told:
             last_s = times[len(inside) - 1 - inside[::-1].index(True)]
-            yield f"the {one.noun.name} leaves the view after {last_s:.2g} s"
-        elif 0 < sum(inside) < 0.5 * len(inside) and one.noun.name not in told:
-            yield f"the {one.noun.name} is in view for {sum(inside) / len(inside):.0%} of the clip"
+            yield f"the {one.name} leaves the view after {last_s:.2g} s"
+        elif 0 < sum(inside) < 0.5 * len(inside) and one.name not in told:
+            yield f"the {one.name} is in view for {sum(inside) / len(inside):.0%} of the clip"
 
 
 def list_hidden(
@@ -207,4 +210,4 @@ def list_hidden(
         gone = [not count and is_any_inside(one.corners(time_s), camera, size)
                 for count, time_s, camera in zip(counts, times, cameras, strict=True)]  # fmt: skip
         if max(counts) >= _TOLD and sum(gone) > 1:
-            yield f"the {one.noun.name} is hidden for {sum(gone) / len(gone):.0%} of the clip"
+            yield f"the {one.name} is hidden for {sum(gone) / len(gone):.0%} of the clip"

@@ -16,7 +16,7 @@ from texvent.sensor import SensorSize
 from texvent_scenes.checks.places import find_unseen_place, share_of_walls
 from texvent_scenes.checks.relations import Violation
 from texvent_scenes.defaults import NO_PLACE
-from texvent_scenes.description import STANDING, SceneDescription
+from texvent_scenes.description import STANDING, SceneDescription, label_of
 from texvent_scenes.models.effects import EFFECTS, LAMPS
 from texvent_scenes.models.places import PLACES, PlaceModel, list_telling
 from texvent_scenes.models.protocol import Pose
@@ -229,10 +229,11 @@ def _find_rest(
         kind = one.motion.kind if one.motion and not one.motions[1:] else _RESTS[0]
         if not own or kind in _RESTS:
             continue
+        name = label_of(description, index)
         if not any(_is_changed(actor, fine) for actor in own):
-            yield Violation("motion", kind, f"the {one.noun}'s {kind}: nothing of it moves")
+            yield Violation("motion", kind, f"the {name}'s {kind}: nothing of it moves")
         elif kind in PATH_KINDS and times[-1] >= _LEAST_CLIP_S and drawn.stay():
-            yield Violation("motion", kind, f"the {one.noun}'s {kind}: the picture stays the same")
+            yield Violation("motion", kind, f"the {name}'s {kind}: the picture stays the same")
 
 
 def _is_changed(actor: Actor, times: Sequence[float]) -> bool:

@@ -48,6 +48,9 @@ over width of what lies as it stands."""
 _SLIM, _CENTRAL = 0.2, 0.25
 """Half of the middle of a body that no larger one may have a part in, and of its foot that
 something must be below, in extents of its box."""
+_PER_S, _FINE_STEPS = 8, 4
+"""Instants per second at which it is looked where bodies are, and steps between two of them at
+which near ones are looked at."""
 _LEAST_INSTANTS = 2
 """Instants at which a fault is one."""
 _LONG, _END = 1.5, 0.35
@@ -92,7 +95,7 @@ def find_misplaced(
         if one.noun.name in nouns_with("hangs from a ceiling") and not place.is_room:
             lost.append(Violation("support", "", "hanging from nothing"))
         for kind, value, text in lost:
-            yield Violation(kind, value, f"the {one.noun.name} {text}")
+            yield Violation(kind, value, f"the {one.name} {text}")
         for relation in description.relations if lost else ():
             if relation.subject == one.object_index and relation.kind in ("on", "above"):
                 yield Violation("relation", relation.kind, "")
@@ -100,7 +103,7 @@ def find_misplaced(
     for one in actors:
         last = (description.objects[one.object_index].motions or (STANDING,))[-1]
         if last.kind in _LAID and not _is_laid(one, last.kind, times):
-            yield Violation("motion", last.kind, f"the {one.noun.name} on its side")
+            yield Violation("motion", last.kind, f"the {one.name} on its side")
 
 
 def _list_wrong_element(
@@ -161,6 +164,42 @@ def _list_strays(
         far_m = half_m or math.inf
         if ((feet > _SHALLOW_M - half_m) & (feet < far_m - _SHALLOW_M)).all():
             yield Violation("zone", "", "in the water")
+
+
+def find_meeting(one: Actor, other: Actor, duration_s: float) -> float | None:
+    """First instant at which the middle of one of two bodies is in the other, s; None: never.
+
+    They are looked at where their ways come near each other.
+    """
+    times = np.linspace(0.0, duration_s, max(int(_PER_S * duration_s), 2) + 1)
+    ways = [np.array([body.track.at(float(at)).position[:2] for at in times])
+            for body in (one, other)]  # fmt: skip
+    off = ways[1] - ways[0]
+    steps = np.diff(off, axis=0)
+    shares = -(off[:-1] * steps).sum(axis=1) / np.maximum((steps**2).sum(axis=1), 1e-12)
+    nearest = off[:-1] + np.clip(shares, 0.0, 1.0)[:, None] * steps
+    is_near = np.linalg.norm(nearest, axis=1) < 0.5 * (one.size_m + other.size_m)
+    if (one.track.is_resting and other.track.is_resting) and is_near.any():
+        is_near[1:] = False
+    bodies = sorted((one, other), key=lambda body: body.size_m)
+    for number in np.flatnonzero(is_near):
+        for at in np.linspace(times[number], times[number + 1], _FINE_STEPS + 1):
+            if _is_through(*bodies, float(at)):
+                return float(at)
+    return None
+
+
+def _is_through(small: Actor, large: Actor, time_s: float) -> bool:
+    """Whether the middle of a body is in a part of a larger one."""
+    corners = small.corners(time_s)
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    middle, slim = 0.5 * (low + high), _SLIM * (high - low)
+    box = large.corners(time_s)
+    if (middle - slim > box.max(axis=0)).any() or (middle + slim < box.min(axis=0)).any():
+        return False
+    shapes = large.place(time_s)
+    parts = np.array([bounds([part]) for part in moved(shapes.parts, shapes.to_world)])
+    return bool(((parts[:, 0] < middle + slim) & (parts[:, 1] > middle - slim)).all(axis=1).any())
 
 
 class _Bodies:
@@ -294,18 +333,27 @@ class _Bodies:
         return bool(sum(under) >= _LEAST_INSTANTS)
 
     def find_intersections(self) -> Iterator[Violation]:
-        """Pairs of bodies, of which the middle of one is in the other."""
-        alone = [n for n, one in enumerate(self._actors) if one.track.anchor is None
-                 and self._description.objects[one.object_index].position_m is None]  # fmt: skip
+        """Pairs of bodies, of which the middle of one is in the other.
+
+        Those of stated places may meet for an instant: for them it is told when.
+        """
+        objects = self._description.objects
+        is_put = [objects[one.object_index].position_m is not None for one in self._actors]
+        alone = [n for n, one in enumerate(self._actors) if one.track.anchor is None]
         for first, second in itertools.combinations(alone, 2):
             one, other = self._actors[first], self._actors[second]
             is_shared = other.object_index in self._bound[one.object_index] - {one.object_index}
             if is_shared or {one.noun.name, other.noun.name} & nouns_with("passage"):
                 continue
+            pair = f"the {one.name} and the {other.name} apart: one goes through the other"
+            if is_put[first] or is_put[second]:
+                met_s = find_meeting(one, other, self._times[-1])
+                if met_s is not None:
+                    yield Violation("support", "", f"{pair} at {met_s:.2g} s")
+                continue
             met = sum(self._cross(first, second, at) for at in range(len(self._times)))
             if met >= _LEAST_INSTANTS:
-                yield Violation("support", "", f"the {one.noun.name} and the {other.noun.name} "
-                                "apart: one goes through the other")  # fmt: skip
+                yield Violation("support", "", pair)
 
     def _cross(self, first: int, second: int, at: int) -> bool:
         """Whether the middle of the smaller one is in a part of the other one."""

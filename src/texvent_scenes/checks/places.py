@@ -11,7 +11,7 @@ from texvent.sensor import SensorSize
 from texvent_scenes.checks.body_boxes import is_any_inside
 from texvent_scenes.checks.relations import Violation
 from texvent_scenes.checks.water import wet_share
-from texvent_scenes.description import SceneDescription
+from texvent_scenes.description import SceneDescription, label_of
 from texvent_scenes.models.places import PLACES, SEEN_FROM_AFAR
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.raycast.ground_truth import visible_instances
@@ -153,7 +153,8 @@ def find_near(
             _share_of_image(one.corners(time_s), camera) <= _MOST_FAR
             for one in own for time_s, camera in zip(times, cameras, strict=True)
         ):  # fmt: skip
-            yield Violation("placement", "far", f"the {said.noun} in the distance: it is near")
+            line = f"the {label_of(description, index)} in the distance: it is near"
+            yield Violation("placement", "far", line)
 
 
 def list_own_walls(scene: ComposedScene, description: SceneDescription) -> Iterator[str]:

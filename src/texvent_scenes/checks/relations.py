@@ -13,9 +13,9 @@ import numpy as np
 
 from texvent_scenes.checks.body_boxes import BodyBoxes
 from texvent_scenes.checks.relation_rules import RULES, are_still, is_between
-from texvent_scenes.description import SceneDescription
+from texvent_scenes.description import SceneDescription, label_of
 from texvent_scenes.models.anchors import has_rim
-from texvent_scenes.models.nouns import AFLOAT, NOUNS, VARIANTS
+from texvent_scenes.models.nouns import AFLOAT, NOUNS
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import Motion, SceneObject
@@ -81,7 +81,7 @@ def find_violations(
     description: SceneDescription, copies: Sequence[Sequence[BodyBoxes]]
 ) -> Iterator[Violation]:
     """Words that the bodies do not realise; without a line where one of them is out of view."""
-    names = [f"the {VARIANTS.get(one.noun, one.noun)}" for one in description.objects]
+    names = [f"the {label_of(description, n)}" for n in range(len(description.objects))]
     sent = {one.subject: one.targets[0] for one in description.relations
             if one.kind in ("kick", "throw", "roll", "hit")}  # fmt: skip
     queues = {one.subject for one in description.claims

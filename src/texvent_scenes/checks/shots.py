@@ -68,7 +68,7 @@ def find_misframed(
     if "follow" in kinds and scene.actors:
         followed = _find_followed(scene, description)
         if not _keeps_inside(followed, cameras, times, size):
-            line = f"follow of the camera: the {followed.noun.name} leaves the image"
+            line = f"follow of the camera: the {followed.name} leaves the image"
             yield Violation("move", "follow", line)
     met = _find_met(scene, times) if set(kinds) - _TURNING else ""
     for kind in kinds:
@@ -138,9 +138,9 @@ def _find_wrong_size(
         held = near_part(main, "close", np.array(times))
         shares = [_extent(*each, size) for each in zip(held, cameras, strict=True)]
         if np.mean(np.array(shares) >= _CLOSE) < _HALF:
-            line = f"{_SAID['close']} of the {main.noun.name}: it is small in the image"
+            line = f"{_SAID['close']} of the {main.name}: it is small in the image"
     elif framed is not None and not framed.holds(main, cameras, times, size):
-        line = f"{framing} shot: the {main.noun.name} is {framed.line}"
+        line = f"{framing} shot: the {main.name} is {framed.line}"
     if line:
         yield Violation("framing", framing, line)
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from texvent_scenes.checks.relations import Violation
 from texvent_scenes.checks.staged_clip import StagedClip
-from texvent_scenes.description import Claim, SceneDescription
+from texvent_scenes.description import Claim, SceneDescription, label_of
 from texvent_scenes.rendered_scene import Float64Array, Ground
 from texvent_scenes.staging.compose import ComposedScene
 from texvent_scenes.staging.surroundings.road_line import RoadLine
@@ -96,8 +96,8 @@ def find_wet_and_dry(
             at = np.linspace(phase.start_s, phase.end_s, _INSTANTS)
             wet = [wet_share(scene, np.array([one.middle(float(t))[:2] for t in at]))
                    for one in own]  # fmt: skip
-            kind = phase.motion.kind
+            kind, name = phase.motion.kind, label_of(description, index)
             if kind in _AFLOAT and max(wet) < _HALF:
-                yield Violation("motion", kind, f"the {said.noun}'s {kind}: it is on land")
+                yield Violation("motion", kind, f"the {name}'s {kind}: it is on land")
             elif kind in _ON_FOOT and min(wet) > _HALF:
-                yield Violation("motion", kind, f"the {said.noun}'s {kind}: it is in the water")
+                yield Violation("motion", kind, f"the {name}'s {kind}: it is in the water")

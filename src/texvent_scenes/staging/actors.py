@@ -86,6 +86,8 @@ class Actor:
     """Head start of its gait, m, so that a herd does not walk in step."""
     props: tuple[Prop, ...] = ()
     """Props of a person's activity, such as a guitar."""
+    label: str = ""
+    """Name in lines, if that is not its noun."""
     goes_across: bool = False
     """Whether it crosses the road."""
     haste: float = 1.0
@@ -98,6 +100,11 @@ class Actor:
         default_factory=dict, init=False, repr=False, compare=False
     )
     """Corners at instants that were asked for: framing asks for the same ones six times."""
+
+    @property
+    def name(self) -> str:
+        """Name in lines: its noun, or also its id among several of the noun."""
+        return self.label or self.noun.name
 
     @property
     def mean_size_m(self) -> float:

@@ -12,7 +12,7 @@ import numpy as np
 from texvent.camera import PosedCamera
 from texvent.sensor import SensorSize
 from texvent_scenes.defaults import waits_to_fall
-from texvent_scenes.description import SceneDescription
+from texvent_scenes.description import SceneDescription, label_of
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.materials import Material
 from texvent_scenes.models.nouns import AFLOAT, NOUNS
@@ -255,7 +255,8 @@ def _list_late(description: SceneDescription, duration_s: float) -> Iterator[str
     """Motions and camera moves that would begin when the clip is over."""
     end = f"(the clip ends at {duration_s:g} s)"
     movers: list[tuple[str, Sequence[Motion | CameraMove]]] = [
-        (f"the {one.noun}", one.motions) for one in description.objects
+        (f"the {label_of(description, n)}", one.motions)
+        for n, one in enumerate(description.objects)
     ]
     for who, moves in [*movers, ("the camera", description.camera.moves)]:
         for one in moves:

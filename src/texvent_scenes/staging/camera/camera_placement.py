@@ -359,7 +359,7 @@ def _list_notes(path: CameraTrack, main: Actor, aspect: float) -> Iterator[str]:
         speed_m_s = float(np.linalg.norm(gone))
         figure = f"{speed_m_s:.2g}" if speed_m_s < 10.0 else f"{speed_m_s:.0f}"
         yield (
-            f"the {main.noun.name} is fast: the camera goes along at {figure} m/s, so that it "
+            f"the {main.name} is fast: the camera goes along at {figure} m/s, so that it "
             "stays in view"
         )
     if path.passage_s is None:
@@ -375,7 +375,7 @@ def _list_notes(path: CameraTrack, main: Actor, aspect: float) -> Iterator[str]:
     first_s, last_s = times[is_seen][[0, -1]] if is_seen.any() else path.passage_s
     if last_s - first_s < path.duration_s:
         yield (
-            f"the {main.noun.name} is fast: it is in view for {last_s - first_s:.2g} s, "
+            f"the {main.name} is fast: it is in view for {last_s - first_s:.2g} s, "
             f"from {first_s:.2g} s on"
         )
 

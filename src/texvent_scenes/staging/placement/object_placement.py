@@ -10,7 +10,7 @@ import numpy as np
 
 from texvent.errors import ConfigError
 from texvent_scenes.colours import rgb_of
-from texvent_scenes.description import STANDING, IndexedRelation, SceneDescription
+from texvent_scenes.description import STANDING, IndexedRelation, SceneDescription, label_of
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.materials import in_material
 from texvent_scenes.models.protocol import Model, Noun
@@ -122,7 +122,7 @@ class ObjectPlacer:
         objects = self._description.objects
         # Objects with positions in metres are placed first; others make way.
         self.not_shown = [
-            f"the {objects[n].noun} ({self._why_left_out(objects[n].noun)})"
+            f"the {label_of(self._description, n)} ({self._why_left_out(objects[n].noun)})"
             for n in sorted(self.orphans)
         ]
         for index in sorted(range(len(objects)), key=lambda one: objects[one].position_m is None):
@@ -288,7 +288,7 @@ class ObjectPlacer:
         scene, subject = self._description, relation.subject
         why = self._why_apart or why
         if scene.prompt:
-            noun, other = (scene.objects[n].noun for n in (subject, relation.targets[0]))
+            noun, other = (label_of(scene, n) for n in (subject, relation.targets[0]))
             distance = f"{relation.distance_m:g} m {relation.kind} the {other}"
             self.not_shown.append(f"the {noun} {distance} ({why})")
             return
@@ -444,6 +444,7 @@ class ObjectPlacer:
                     any(motion.is_moving for motion in said),
                     before + number + 1, float(rng.uniform(0.0, 1.0)) if number else 0.0,
                     choose_props(self._description, group),
+                    label=label_of(self._description, group.index),
                     goes_across=any(one.direction == "across" for one in said),
                     haste=haste_of(group.noun, said[0]),
                 )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from texvent_scenes.description import SceneDescription
+from texvent_scenes.description import SceneDescription, label_of
 from texvent_scenes.models.protocol import Model, Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.staging.placement.containers import reach_of
@@ -78,8 +78,8 @@ class Sizes:
         share = max(room_m / (said.count * max(own.length, own.width)), _LEAST_SHARE)
         if share >= 1.0:
             return 1.0, []
-        return share, [f"the {said.noun} is drawn at {share:.0%} of its size, for which the "
-                       f"{below[0].name} has room"]  # fmt: skip
+        return share, [f"the {label_of(self._description, index)} is drawn at {share:.0%} of its "
+                       f"size, for which the {below[0].name} has room"]  # fmt: skip
 
     def _fit_in(self, index: int) -> tuple[float, list[str]]:
         """Scale of a container that holds what is in it, or of what it has no room for."""
@@ -95,8 +95,8 @@ class Sizes:
             own = whole if index == one.targets[0] else share
             if abs(own - 1.0) <= _NOTED:
                 return own, []
-            return own, [f"the {objects[index].noun} is drawn at {own:.0%} of its usual size, as "
-                         "one is in the other"]  # fmt: skip
+            return own, [f"the {label_of(self._description, index)} is drawn at {own:.0%} of its "
+                         "usual size, as one is in the other"]  # fmt: skip
         return 1.0, []
 
     def _fit_through(self, index: int) -> float:
