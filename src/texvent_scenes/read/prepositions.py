@@ -16,6 +16,7 @@ from texvent_scenes.read.parsing.groups import Group, Phrase, heads_of, nouns_of
 from texvent_scenes.read.parsing.lexicon import word_set
 from texvent_scenes.read.parsing.tokens import Token
 from texvent_scenes.read.relations import relate_one
+from texvent_scenes.rendered_scene import Ground
 from texvent_scenes.spec.data import PLACING, SPACED
 
 _WATERS = frozenset({"sea", "lake", "river"})
@@ -173,7 +174,8 @@ def go_to_place(
 
 def _keep_above(draft: SceneDraft, token: Token, place: PlaceModel, subjects: Indices) -> None:
     """Put what flies over a road or water above it, as what "takes off from a lake"."""
-    has_way = place.has_road or place.has_shore
+    is_city = place.ground is Ground.CITY  # which is more than its streets
+    has_way = (place.has_road and not is_city) or place.has_shore
     flying = [one for one in subjects if draft.noun(one).habitat == "air"]
     rises = token.text in ("from", "off") and draft.does(flying) <= {"rise"}
     if not (has_way and flying and (token.text in ("over", "above", "along") or rises)):
