@@ -306,12 +306,7 @@ def _scatter_all(
     surroundings = description.place
     place = surroundings.name or "grass"
     rules = [
-        rule
-        for rule in PLACES[place].scenery
-        if rule.is_structure
-        or not (
-            surroundings.is_empty and (PLACES[place].is_cleared or nouns[rule.noun].speed_m_s > 0.0)
-        )
+        rule for rule in PLACES[place].scenery if rule.is_structure or not surroundings.is_empty
     ]
     if any(zone_of(one.noun) == "rails" for one in actors) and place != "railway":
         is_outside = not (PLACES[place].is_room or PLACES[place].is_backdrop)

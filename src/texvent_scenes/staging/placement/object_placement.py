@@ -287,7 +287,7 @@ class ObjectPlacer:
         """
         scene, subject = self._description, relation.subject
         why = self._why_apart or why
-        if scene.prompt:
+        if scene.is_sentence:
             noun, other = (label_of(scene, n) for n in (subject, relation.targets[0]))
             distance = f"{relation.distance_m:g} m {relation.kind} the {other}"
             self.not_shown.append(f"the {noun} {distance} ({why})")
