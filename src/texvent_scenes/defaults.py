@@ -40,6 +40,7 @@ _VERTICAL = {**_UPRIGHT, "up and down": "fly"}
 """Direction of what goes by no means of its own → its motion."""
 _FLYING = {"fly", "rise", "sink", "hover"}
 _ALONG = frozenset({"walk", "run", "drive", "roll", "fly", "crawl", "slide"})
+_GO = Motion("go")
 _ROCKING = 0.5
 """Pace at which what floats rocks on waves, as a share of that of a sway."""
 _DARK_EFFECTS = frozenset({"fireworks", "fireflies"})
@@ -211,7 +212,9 @@ def _set_on_routes(
     for one in routes:
         thing, to = objects[one.subject], objects[one.targets[0]]
         noun, leader = nouns[thing.noun], nouns[to.noun]
-        if thing.motions or noun.speed_m_s <= 0.0 or noun.habitat == "fixed":
+        is_led = one.kind == "follow" and len(to.motions) > 1 and all(map(_is_plain, thing.motions))
+        is_said = thing.motions and not is_led
+        if is_said or noun.speed_m_s <= 0.0 or noun.habitat == "fixed":
             continue
         motions: tuple[Motion, ...] = (Motion(_GOING.get(noun.motion, noun.motion)),)
         if one.kind == "follow":
@@ -221,6 +224,11 @@ def _set_on_routes(
         new = replace(thing, motions=motions)
         objects = tuple(new if n == one.subject else each for n, each in enumerate(objects))
     return replace(description, objects=objects)
+
+
+def _is_plain(motion: Motion) -> bool:
+    """Whether a motion says no more than that something goes."""
+    return motion.kind in TRAVELLING | _GOES | {"move"} and replace(motion, kind="go") == _GO
 
 
 def _after(motion: Motion, noun: Noun, leader: Noun) -> Motion:

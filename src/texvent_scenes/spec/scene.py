@@ -102,8 +102,8 @@ class Relation:
     to: tuple[str, ...]
     """Ids of the other objects; its own id stands for the copies of a group among each other."""
     distance_m: Metres | None = None
-    """Distance on the ground from middle to middle, m, of "left of", "right of", "front", "behind"
-    and "beside"."""
+    """Distance on the ground at time 0, m, from middle to middle, of "left of", "right of",
+    "front", "behind" and "beside"; along the way of "follow"."""
 
 
 @dataclass(frozen=True)

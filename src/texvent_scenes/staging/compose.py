@@ -28,6 +28,7 @@ from texvent_scenes.staging.camera.camera_placement import place_camera
 from texvent_scenes.staging.camera.camera_track import CameraTrack
 from texvent_scenes.staging.camera.journey import plan_travel
 from texvent_scenes.staging.interactions.breaking import break_up
+from texvent_scenes.staging.interactions.following import follow_ways
 from texvent_scenes.staging.particles.choose import (
     Staged,
     stage_effects,
@@ -151,6 +152,7 @@ def compose_scene(
     if travel is None:
         actors = part_turns(description, PLACES[place], actors)
         actors = keep_to_zones(description, PLACES[place], actors, duration_s)
+    actors = follow_ways(description, actors, duration_s)
     actors = break_up(description, actors, duration_s)
     ground = contrasting(PLACES[place], description, actors)
     camera_path = place_camera(

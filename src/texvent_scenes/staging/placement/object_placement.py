@@ -270,6 +270,9 @@ class ObjectPlacer:
     ) -> Goal:  # fmt: skip
         """Goal of a group on its targets, at stated distances from what is there too."""
         shared = self._list_sharing(relation)
+        if relation.kind == "follow" and relation.distance_m is not None:
+            ahead = targets[0].to_world(relation.distance_m, 0.0, 0.0) - targets[0].centre
+            group.begins = targets[0].begin - ahead[:2]
         if relation.kind in RESTING:
             group.spacing = plan_spacing(self._description, shared, self.groups, self.build_group)
         try:
