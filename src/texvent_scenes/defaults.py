@@ -40,6 +40,7 @@ _VERTICAL = {**_UPRIGHT, "up and down": "fly"}
 """Direction of what goes by no means of its own → its motion."""
 _FLYING = {"fly", "rise", "sink", "hover"}
 _ALONG = frozenset({"walk", "run", "drive", "roll", "fly", "crawl", "slide"})
+_GO = Motion("go")
 _ROCKING = 0.5
 """Pace at which what floats rocks on waves, as a share of that of a sway."""
 _DARK_EFFECTS = frozenset({"fireworks", "fireflies"})
@@ -150,7 +151,7 @@ def _list_loose(description: SceneDescription) -> Iterator[tuple[int, Sequence[s
 def _list_floored(description: SceneDescription, place: str) -> Iterator[str]:
     """Notes on small things that a sentence leaves on the floor of a room."""
     nouns = {one.noun for one in description.objects}
-    for n, _ in _list_loose(description) if is_room(place) and description.prompt else ():
+    for n, _ in _list_loose(description) if is_room(place) and description.is_sentence else ():
         noun = description.objects[n].noun
         if not (nouns & PERSON_NOUNS and noun in nouns_with("in hand or on something")):
             yield f"nothing carries the {noun}: it stands on the floor"
@@ -199,12 +200,21 @@ def _lead_companions(description: SceneDescription, nouns: Mapping[str, Noun]) -
 def _set_on_routes(
     description: SceneDescription, nouns: Mapping[str, Noun]
 ) -> SceneDescription:  # fmt: skip
-    """Objects that a file sends on a route without a motion go; followers do in the same legs."""
+    """Objects that a file sends on a route without a motion go; followers do in the same legs.
+
+    Who has or handles something that goes towards or comes from somewhere stays.
+    """
     objects = description.objects
-    for one in (each for each in description.relations if each.kind in _ROUTES):
+    sends = {one.subject for one in description.relations if one.kind in ACTED | AT_HAND}
+    routes = (one for one in description.relations
+              if one.kind in _ROUTES
+              and not (one.kind in ("towards", "from") and one.subject in sends))  # fmt: skip
+    for one in routes:
         thing, to = objects[one.subject], objects[one.targets[0]]
         noun, leader = nouns[thing.noun], nouns[to.noun]
-        if thing.motions or noun.speed_m_s <= 0.0 or noun.habitat == "fixed":
+        is_led = one.kind == "follow" and len(to.motions) > 1 and all(map(_is_plain, thing.motions))
+        is_said = thing.motions and not is_led
+        if is_said or noun.speed_m_s <= 0.0 or noun.habitat == "fixed":
             continue
         motions: tuple[Motion, ...] = (Motion(_GOING.get(noun.motion, noun.motion)),)
         if one.kind == "follow":
@@ -214,6 +224,11 @@ def _set_on_routes(
         new = replace(thing, motions=motions)
         objects = tuple(new if n == one.subject else each for n, each in enumerate(objects))
     return replace(description, objects=objects)
+
+
+def _is_plain(motion: Motion) -> bool:
+    """Whether a motion says no more than that something goes."""
+    return motion.kind in TRAVELLING | _GOES | {"move"} and replace(motion, kind="go") == _GO
 
 
 def _after(motion: Motion, noun: Noun, leader: Noun) -> Motion:
@@ -461,12 +476,12 @@ def _park(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDesc
 
 
 def _darken(description: SceneDescription) -> SceneDescription:
-    """Lights that flash or blink do so in the dark, unless the scene says otherwise."""
+    """Lights of sentences flash or blink in the dark, unless they say otherwise."""
     objects, patterns = description.objects, nouns_with("flat pattern")
     is_seen = any(one.kind in _DARK_EFFECTS for one in description.effects)
     is_seen |= any(one.noun in nouns_with("seen in the dark") for one in objects)
     is_seen |= any(one.blink_hz is not None and one.noun not in patterns for one in objects)
-    if description.light.kind is not None or not is_seen:
+    if description.light.kind is not None or not (is_seen and description.is_sentence):
         return description
     description = replace(description, light=replace(description.light, kind="night"))
     return _note(description, "it is dark, so that the light that changes is seen")

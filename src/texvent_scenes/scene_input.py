@@ -50,8 +50,17 @@ def read(prompt: str, *, assets: str | Path | None = None) -> Reading:
     """
     if not isinstance(prompt, str):
         raise InputError(f"the prompt is {shown(prompt)}; give a text, such as 'a car drives left'")
-    reading, idle = _read(prompt, list_nouns(assets))
-    return replace(reading, not_understood=(*reading.not_understood, *idle))
+    from texvent_scenes.defaults import complete
+    from texvent_scenes.description import to_description
+    from texvent_scenes.staging.surroundings.lighting import DARK
+
+    nouns = list_nouns(assets)
+    reading, idle = _read(prompt, nouns)
+    scene = reading.scene
+    decided = complete(replace(to_description(scene), words=_words_of(reading)), nouns)
+    if scene.light.kind is None and decided.light.kind in DARK:
+        scene = replace(scene, light=replace(scene.light, kind=decided.light.kind))
+    return replace(reading, scene=scene, not_understood=(*reading.not_understood, *idle))
 
 
 def _read(prompt: str, nouns: Mapping[str, Noun]) -> tuple[Reading, dict[str, str]]:
@@ -68,7 +77,7 @@ def _read(prompt: str, nouns: Mapping[str, Noun]) -> tuple[Reading, dict[str, st
             f"the prompt is {what}; describe a scene, or name its .toml or .json file (videos: "
             "texvent simulate, or the column `video` of a list)"
         )
-    reading = reader.read(prompt, nouns)
+    reading = _settle_place(reader.read(prompt, nouns), nouns)
     if not _has_subject(reading):
         words = few(reading.not_understood, MOST_WORDS)
         read = few(reading.shown, MOST_WORDS)
@@ -81,6 +90,33 @@ def _read(prompt: str, nouns: Mapping[str, Noun]) -> tuple[Reading, dict[str, st
             "models that take any text"
         )
     return _without_idle(reading, nouns)
+
+
+def _settle_place(reading: Reading, nouns: Mapping[str, Noun]) -> Reading:
+    """The reading with fields of its place that words of sentences say of some places.
+
+    A room at night is lit, and "an empty street" is one without people and traffic.
+    """
+    from texvent_scenes.defaults import complete
+    from texvent_scenes.description import to_description
+    from texvent_scenes.models.places import PLACES
+
+    scene = reading.scene
+    place, absent = scene.place, scene.absent
+    decided = complete(replace(to_description(scene), words=_words_of(reading)), nouns)
+    model = PLACES[decided.place.name or "grass"]
+    if place.is_empty and not model.is_cleared and model.scenery:
+        place = replace(place, is_empty=False)
+        movers = (one.noun for one in model.scenery if nouns[one.noun].speed_m_s > 0.0)
+        absent = tuple(dict.fromkeys((*absent, *movers)))
+    is_lit = decided.light.kind in ("night", "moonlight") and model.is_room
+    place = replace(place, is_lit=is_lit)
+    return replace(reading, scene=replace(scene, place=place, absent=absent))
+
+
+def _words_of(reading: Reading) -> PromptReport:
+    """The words of a sentence, whatever became of them."""
+    return PromptReport(shown=reading.shown, not_understood=reading.not_understood)
 
 
 def _hint(reading: Reading) -> str:
@@ -274,7 +310,6 @@ def understand(subject: Subject, nouns: Mapping[str, Noun]) -> SceneDescription:
     if isinstance(subject, Scene):
         return describe_scene(subject, nouns)
     reading, lost = _read(str(subject), nouns)
-    description = describe_scene(reading.scene, nouns)
     open_words = {one.word for one in reading.claims if one.is_open}
     unread = tuple(one for one in reading.not_understood if one not in open_words)
     words = PromptReport(
@@ -284,7 +319,8 @@ def understand(subject: Subject, nouns: Mapping[str, Noun]) -> SceneDescription:
         meant=tuple(_meant(unread, nouns)),
         not_shown=tuple(f"{word} ({why})" for word, why in lost.items() if word not in open_words),
     )
-    return replace(description, words=words, claims=reading.claims, dependences=reading.dependences)
+    description = describe_scene(reading.scene, nouns, words)
+    return replace(description, claims=reading.claims, dependences=reading.dependences)
 
 
 def _meant(words: Iterable[str], nouns: Mapping[str, Noun]) -> Iterator[str]:
@@ -302,8 +338,12 @@ def _meant(words: Iterable[str], nouns: Mapping[str, Noun]) -> Iterator[str]:
         yield from (f"{word}: {name}" for name in near)
 
 
-def describe_scene(scene: Scene, nouns: Mapping[str, Noun]) -> SceneDescription:
+def describe_scene(
+    scene: Scene, nouns: Mapping[str, Noun], words: PromptReport | None = None
+) -> SceneDescription:
     """The description of a scene, checked, with what the scene leaves open decided.
+
+    `words` are those of the sentence that it is read from.
 
     Raises:
         ConfigError: a field is wrong, or a word is not shown.
@@ -315,7 +355,8 @@ def describe_scene(scene: Scene, nouns: Mapping[str, Noun]) -> SceneDescription:
     scene = checked_scene(scene, list_words(nouns))
     _check_pictures(scene)
     _refuse_idle(scene, nouns)
-    return complete(to_description(scene), nouns)
+    description = to_description(scene)
+    return complete(description if words is None else replace(description, words=words), nouns)
 
 
 def _check_pictures(scene: Scene) -> None:

@@ -61,7 +61,9 @@ def stage(
     shown = (*shown, *sorted(held - {*said.shown}))
     lines = (*said.not_shown, *scene.not_shown,
              *filter(None, (one.line for one in unseen.violations)))  # fmt: skip
-    enough = {one for one in unseen.out_of_view if description.prompt and _are_enough(one, shown)}
+    enough = {
+        one for one in unseen.out_of_view if description.is_sentence and _are_enough(one, shown)
+    }
     out_of_view = tuple(one for one in unseen.out_of_view if one not in enough)
     told = " ".join((*lines, *out_of_view, *unseen.too_small)).casefold()
     told = re.sub(r"\([^)]*\)", "", told)  # "table (cut off)" does not tell of "off"

@@ -146,14 +146,14 @@ def find_unshown(
     is_bare = is_said and not drawn.differ(other, least=_LEAST_SCENERY)
     if is_said and place.is_room and not _is_told(scene, said.name or "", times):
         is_bare = is_bare or not drawn.differ(other, least=_FULL)
-    is_emptied = said.is_empty and place.is_cleared
-    if is_bare and place.scenery and not is_emptied and _is_shared(scene, times):
+    if is_bare and place.scenery and not said.is_empty and _is_shared(scene, times):
         bare = "bare walls and the floor are" if place.is_room else "the ground is"
         line = f"{said.name}, of which only {bare} in view"
         yield Violation("place", said.name or "", line)
     yield from find_unseen_place(
         scene, said, is_bare=is_bare, times=times,
-        names_sky=bool(re.search(r"\bsk(y|ies)\b", description.prompt.casefold())),
+        names_sky=description.is_sentence
+        and bool(re.search(r"\bsk(y|ies)\b", description.prompt.casefold())),
     )  # fmt: skip
 
 

@@ -55,6 +55,8 @@ SENT = ("kick", "throw", "roll", "hit")
 """Those after which the target goes on by itself."""
 
 SPACED = ("left of", "right of", "front", "behind", "beside")
+"""Relations that say where something is beside another thing."""
+DISTANCED = (*SPACED, "follow")
 """Relations with a distance."""
 LEAST_LOOK_M = 1e-3
 """Least way from a camera to the point it looks at, m."""
@@ -137,9 +139,12 @@ def _relation_faults(where: str, id: str, one: SceneObject) -> Iterator[str]:
             yield f"{where}.relations[{m}].to is empty; name an object's id"
         if id in relation.to and one.count == 1:
             yield f"{where}.relations[{m}].to is {shown(id)}, which is the object itself"
-        if relation.distance_m is not None and relation.kind not in SPACED:
+        if relation.distance_m is not None and relation.kind not in DISTANCED:
             yield (f"{where}.relations[{m}].distance_m is given, but {shown(relation.kind)} has no "
-                   f"distance; {', '.join(SPACED)} have one")  # fmt: skip
+                   f"distance; {', '.join(DISTANCED)} have one")  # fmt: skip
+        if relation.distance_m is not None and relation.kind == "follow" and one.position_m:
+            yield (f"{where}.relations[{m}].distance_m is given beside position_m, which says how "
+                   "far behind it begins; leave one of them out")  # fmt: skip
 
 
 def _circles(scene: Scene, ids: tuple[str, ...]) -> Iterator[str]:

@@ -102,8 +102,8 @@ class Relation:
     to: tuple[str, ...]
     """Ids of the other objects; its own id stands for the copies of a group among each other."""
     distance_m: Metres | None = None
-    """Distance on the ground from middle to middle, m, of "left of", "right of", "front", "behind"
-    and "beside"."""
+    """Distance on the ground at time 0, m, from middle to middle, of "left of", "right of",
+    "front", "behind" and "beside"; along the way of "follow"."""
 
 
 @dataclass(frozen=True)
@@ -300,7 +300,11 @@ class Place:
     """Crossing of the roads, at right angles, m; off the road, a point on the other one. Left out:
     7 m along the road from its first vehicle, or where that turns."""
     is_empty: bool = False
-    """Whether scenery and furniture are left out."""
+    """Whether scenery and furniture are left out; walls with what is painted on them, lines on the
+    ground, tracks and `backdrops` stay."""
+    is_lit: bool = False
+    """Whether the lamps and screens of a room are on at night and by moonlight; left out: only
+    lamps of the scene are."""
     has_snow: bool = False
     """Whether snow lies on the ground."""
     is_wet: bool | None = None

@@ -28,6 +28,7 @@ from texvent_scenes.staging.camera.camera_placement import place_camera
 from texvent_scenes.staging.camera.camera_track import CameraTrack
 from texvent_scenes.staging.camera.journey import plan_travel
 from texvent_scenes.staging.interactions.breaking import break_up
+from texvent_scenes.staging.interactions.following import follow_ways
 from texvent_scenes.staging.particles.choose import (
     Staged,
     stage_effects,
@@ -154,6 +155,7 @@ def compose_scene(
     if travel is None:
         actors = part_turns(description, PLACES[place], actors)
         actors = keep_to_zones(description, PLACES[place], actors, duration_s)
+    actors = follow_ways(description, actors, duration_s)
     actors = break_up(description, actors, duration_s)
     ground = contrasting(PLACES[place], description, actors)
     camera_path = place_camera(
@@ -309,12 +311,7 @@ def _scatter_all(
     surroundings = description.place
     place = surroundings.name or "grass"
     rules = [
-        rule
-        for rule in PLACES[place].scenery
-        if rule.is_structure
-        or not (
-            surroundings.is_empty and (PLACES[place].is_cleared or nouns[rule.noun].speed_m_s > 0.0)
-        )
+        rule for rule in PLACES[place].scenery if rule.is_structure or not surroundings.is_empty
     ]
     if any(zone_of(one.noun) == "rails" for one in actors) and place != "railway":
         is_outside = not (PLACES[place].is_room or PLACES[place].is_backdrop)

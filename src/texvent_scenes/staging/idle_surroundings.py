@@ -43,6 +43,7 @@ _OF_PLACES: Mapping[str, tuple[Callable[[PlaceModel], bool], str]] = {
     "road_m": (lambda place: place.has_road, "a road"),
     "road_heading_deg": (lambda place: place.has_road, "a road"),
     "wave_height": (lambda place: place.ground in _WATER, "water"),
+    "is_lit": (lambda place: place.is_room, "lamps of its own"),
     "sky": (lambda place: not place.is_room, "a sky"),
     "clouds": (lambda place: not place.is_room, "a sky"),
     "backdrops": (lambda place: not place.is_room, "a horizon"),
@@ -66,6 +67,8 @@ def idle_place(scene: Scene, name: str) -> Iterator[Idle]:
         known = few([other for other, place in PLACES.items() if reads(place)], MOST_NAMED)
         yield Idle(f"place.{each.name}", f"the place {shown(name)} has not {needed}; "
                    f"these have: {known}")  # fmt: skip
+    if said.is_lit and scene.light.kind not in ("night", "moonlight"):
+        yield Idle("place.is_lit", "it says so of a room at night or by moonlight", is_usual=True)
     if said.is_wet and said.weather == "rain" and PLACES[name].ground in _WETTED:
         yield Idle("place.is_wet", "rain wets the ground anyway", is_usual=True)
     is_lane = [one.placement == "lane" and not _is_above_water(one, PLACES[name])

@@ -204,5 +204,16 @@ def test_the_light_of_lamps_has_those_of_a_room_on(place):
 def test_in_a_room_of_a_sentence_the_light_is_on_at_night(room):
     said = understand(f"a man waves in {room} at night", NOUNS)
     lit = float(np.mean(render(compose_small(said), 0.1, SMALL)))
-    dark = float(np.mean(render(compose_small(replace(said, prompt="")), 0.1, SMALL)))
+    unlit = replace(said, place=replace(said.place, is_lit=False))
+    dark = float(np.mean(render(compose_small(unlit), 0.1, SMALL)))
     assert lit > 3.0 * dark
+
+
+@for_every(itertools.product(ROOMS, NIGHTS))
+def test_a_room_of_a_file_is_lit_at_night_where_it_says_so(row):
+    place, kind = row
+    one = SceneObject("box", motions=(Motion("stand"),))
+    scene = Scene(objects=(one,), light=Light(kind), place=Place(place, is_lit=True))
+    lit = float(np.mean(render(compose_small(describe_scene(scene, NOUNS)), 0.1, SMALL)))
+    (dark, _), _ = seen(place, kind)
+    assert lit > 2.0 * dark

@@ -253,8 +253,9 @@ def _step(relation: IndexedRelation, axes: Float64Array) -> Float64Array:
 
 
 def list_distances(description: SceneDescription) -> Iterator[IndexedRelation]:
-    """Relations with a distance."""
-    return (one for one in description.relations if one.distance_m is not None)
+    """Relations beside another thing with a distance."""
+    return (one for one in description.relations
+            if one.distance_m is not None and one.kind in SIDES)  # fmt: skip
 
 
 def bearer_of(description: SceneDescription, index: int) -> tuple[str, tuple[int, ...]] | None:

@@ -270,6 +270,9 @@ class ObjectPlacer:
     ) -> Goal:  # fmt: skip
         """Goal of a group on its targets, at stated distances from what is there too."""
         shared = self._list_sharing(relation)
+        if relation.kind == "follow" and relation.distance_m is not None:
+            ahead = targets[0].to_world(relation.distance_m, 0.0, 0.0) - targets[0].centre
+            group.begins = targets[0].begin - ahead[:2]
         if relation.kind in RESTING:
             group.spacing = plan_spacing(self._description, shared, self.groups, self.build_group)
         try:
@@ -287,7 +290,7 @@ class ObjectPlacer:
         """
         scene, subject = self._description, relation.subject
         why = self._why_apart or why
-        if scene.prompt:
+        if scene.is_sentence:
             noun, other = (label_of(scene, n) for n in (subject, relation.targets[0]))
             distance = f"{relation.distance_m:g} m {relation.kind} the {other}"
             self.not_shown.append(f"the {noun} {distance} ({why})")

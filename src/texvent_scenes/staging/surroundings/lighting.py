@@ -103,12 +103,9 @@ _THROUGH_WINDOWS = 0.2
 
 
 def is_unlit_room(place: PlaceModel, scene: Scene) -> bool:
-    """Whether a room at night has no light of its own: where the scene has lamps, or no sentence.
-
-    In a room of a sentence somebody has switched on the light.
-    """
+    """Whether a room at night has no light of its own; of sentences somebody has put it on."""
     is_night = scene.light.kind in ("night", "moonlight")
-    return place.is_room and is_night and (not scene.prompt or bool(scene.light.lamps))
+    return place.is_room and is_night and not scene.place.is_lit
 
 
 def choose_lighting(place: PlaceModel, light: Light, *, is_unlit: bool = False) -> Lighting:
