@@ -11,6 +11,7 @@ from texvent.camera import project
 from texvent_scenes.defaults import complete
 from texvent_scenes.description import to_description
 from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.scene_input import understand
 from texvent_scenes.spec.scene import Place, Relation, Scene, SceneObject
 
 
@@ -86,7 +87,7 @@ def test_small_things_stand_on_their_usual_support(noun, support):
     ]
     held = SceneObject(noun, relations=(Relation("under", (support,)),))
     assert len(complete_of(held, SceneObject(support), place="indoor").relations) == 1
-    alone = complete_of(SceneObject(noun), place=None)
+    alone = understand(f"a {noun}", NOUNS)
     assert f"nothing carries the {noun}: it stands on the floor" in alone.notes
 
 
