@@ -180,10 +180,10 @@ def find_meeting(one: Actor, other: Actor, duration_s: float) -> float | None:
     is_near = np.linalg.norm(nearest, axis=1) < 0.5 * (one.size_m + other.size_m)
     if (one.track.is_resting and other.track.is_resting) and is_near.any():
         is_near[1:] = False
-    bodies = sorted((one, other), key=lambda body: body.size_m)
+    small, large = sorted((one, other), key=lambda body: body.size_m)
     for number in np.flatnonzero(is_near):
         for at in np.linspace(times[number], times[number + 1], _FINE_STEPS + 1):
-            if _is_through(*bodies, float(at)):
+            if _is_through(small, large, float(at)):
                 return float(at)
     return None
 
