@@ -8,11 +8,19 @@ from dataclasses import replace
 from texvent_scenes.description import STANDING
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
-from texvent_scenes.spec.scene import Direction, Motion
+from texvent_scenes.spec.scene import Direction, Motion, SceneObject
 
 _BY_TURNS = frozenset({"work", "spin", "swing", "move", "stand"})
 """Motions of what works and rests at stated times."""
 _SIDES = ("left", "right")
+AT_REST = Motion("stand", start_s=0.0)
+"""Rest that is said of what works otherwise."""
+
+
+def stands_still(one: SceneObject, noun: Noun) -> bool:
+    """Whether rest, and nothing else, is said of what works."""
+    kinds = [each.kind for each in one.motions]
+    return kinds == ["stand"] and not one.motions[0].start_s and noun.is_working
 
 
 def is_work(motion: Motion | None, noun: Noun) -> bool:

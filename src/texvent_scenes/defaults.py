@@ -10,7 +10,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from texvent_scenes.default_places import AFLOAT_MOTIONS, AT_HAND, choose_place
-from texvent_scenes.default_work import is_work, list_work, work_of, works_by_turns
+from texvent_scenes.default_work import (
+    AT_REST,
+    is_work,
+    list_work,
+    stands_still,
+    work_of,
+    works_by_turns,
+)
 from texvent_scenes.description import (
     SPIN_RATE_HZ,
     STANDING,
@@ -57,11 +64,15 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     What lives in the air or in water moves unless it is said to rest. When nothing moves, the
     first object that can move does what it usually does; when none can, the camera sways.
     """
+    at_rest = {n for n, one in enumerate(description.objects) if stands_still(one, nouns[one.noun])}
     description = _set_on_routes(description, nouns)
     description = _rest(_set_down(_strike_far(_set_far(_ground(description)))), nouns)
     objects = tuple(
-        replace(one, motions=decide_motions(one.motions, nouns[one.noun]))
-        for one in description.objects
+        replace(
+            one,
+            motions=(AT_REST,) if n in at_rest else decide_motions(one.motions, nouns[one.noun]),
+        )
+        for n, one in enumerate(description.objects)
     )
     description = _lead_companions(replace(description, objects=objects), nouns)
     description = _darken(_move_others(description, nouns))

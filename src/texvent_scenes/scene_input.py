@@ -93,15 +93,20 @@ def _read(prompt: str, nouns: Mapping[str, Noun]) -> tuple[Reading, dict[str, st
 
 
 def _settle_place(reading: Reading, nouns: Mapping[str, Noun]) -> Reading:
-    """The reading with fields of its place that words of sentences say of some places.
+    """The reading with fields that words of sentences say otherwise than those of files.
 
-    A room at night is lit, and "an empty street" is one without people and traffic.
+    A room at night is lit, "an empty street" is one without people and traffic, and a fan that
+    stands somewhere works there.
     """
+    from texvent_scenes.default_work import stands_still
     from texvent_scenes.defaults import complete
     from texvent_scenes.description import to_description
     from texvent_scenes.models.places import PLACES
 
     scene = reading.scene
+    objects = tuple(replace(one, motions=()) if stands_still(one, nouns[one.noun]) else one
+                    for one in scene.objects)  # fmt: skip
+    scene = replace(scene, objects=objects)
     place, absent = scene.place, scene.absent
     decided = complete(replace(to_description(scene), words=_words_of(reading)), nouns)
     model = PLACES[decided.place.name or "grass"]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import fields, replace
-from functools import partial
 
 import numpy as np
 
@@ -39,18 +38,17 @@ def follow_ways(
             leaders = [each for each in found if each.object_index == one.targets[0]]
             for number, each in enumerate(found):
                 if each.object_index == one.subject and leaders:
-                    leader = min(leaders, key=partial(_apart_m, each))
-                    found[number] = _led_by(each, leader, duration_s)
+                    found[number] = _led_by(each, leaders, duration_s)
     return found
 
 
 def _apart_m(one: Actor, other: Actor) -> float:
-    start, end = (np.array(each.track.at(0.0).position[:2]) for each in (one, other))
-    return float(np.linalg.norm(end - start))
+    return math.dist(one.track.at(0.0).position[:2], other.track.at(0.0).position[:2])
 
 
-def _led_by(one: Actor, leader: Actor, duration_s: float) -> Actor:
-    """A follower behind a leader whose way bends, on that way."""
+def _led_by(one: Actor, leaders: Sequence[Actor], duration_s: float) -> Actor:
+    """A follower behind the nearest of its leaders, on its way if that bends."""
+    leader = min(leaders, key=lambda led: _apart_m(one, led))
     is_free = one.track.anchor is None and not one.track.is_resting
     _, gone, places = trace(leader.track, duration_s)
     turns = _list_turns(places[:, :2])

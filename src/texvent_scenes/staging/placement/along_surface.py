@@ -169,6 +169,7 @@ def carry_along(group: ObjectGroup, target: ObjectGroup, support: Support) -> No
     room = max(support.high[0] - support.low[0] - taken, 0.0)
     ends = group.ends_m if group.ends_m is None or way > 0.0 else tuple(-x for x in group.ends_m)
     keys = _list_carried([(span_s, way * speed) for span_s, speed in steps], room, ends)
+    group.stops_s = _find_end(steps, keys)
     path = Track((0.0, 0.0, 0.0), target.plan.yaw + (math.pi if way < 0.0 else 0.0), keys)
     slide = replace(group.plan.motion, kind="slide")
     path = centred(path, target.plan.duration_s)
@@ -202,6 +203,19 @@ def _list_carried(
         if going_s < span_s:
             keys.append(Key(span_s - going_s, ramp_s=0.0, activity="stand"))
     return tuple(keys)
+
+
+def _find_end(steps: Sequence[tuple[float, float]], keys: Sequence[Key]) -> float | None:
+    """Time from which on things rest on a belt that runs, up to its last move at least, s."""
+    last_s = sum(span_s for span_s, _ in steps)
+    runs_s = max(sum(span_s for span_s, _ in steps[: n + 1])
+                 for n, (_, speed) in enumerate(steps) if speed)  # fmt: skip
+    rests_s = last_s
+    for key in reversed(keys):
+        if key.speed_m_s or not key.duration_s:
+            break
+        rests_s -= key.duration_s
+    return rests_s if runs_s - rests_s > _LEAST_GOING_S else None
 
 
 def stop_at_edge(group: ObjectGroup, target: ObjectGroup, support: Support) -> None:

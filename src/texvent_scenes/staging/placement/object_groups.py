@@ -75,6 +75,8 @@ class ObjectGroup:
     ends_m: tuple[float, float] | None = None
     """Ends of its way along what bears it, from where it begins, m; None: it goes through its
     middle."""
+    stops_s: float | None = None
+    """Time at which it comes to the end of a belt that runs on; None: it does not."""
     lag_m: Float64Array = field(default_factory=lambda: np.zeros(2))
     """[2] from its middle as it is placed to that at time 0: half its way back, m."""
 

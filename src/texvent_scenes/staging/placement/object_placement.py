@@ -198,6 +198,10 @@ class ObjectPlacer:
         group.centre = self._find_free_position(group, goal)
         group.gather()
         self._start_where_said(group)
+        if group.stops_s is not None and group.bearer is not None:
+            belt = label_of(self._description, group.bearer[0].index)
+            self.notes.append(f"what is on the {belt} comes to its end at {group.stops_s:.2g} s "
+                              "and rests there; the belt runs on")  # fmt: skip
         self.groups[index] = group
 
     def _start_where_said(self, group: ObjectGroup) -> None:

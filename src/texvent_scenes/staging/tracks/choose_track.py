@@ -175,12 +175,13 @@ def _fly_freely(plan: MotionPlan, model: Model, home: Vector) -> Track:
     kind, duration_s, floor = plan.motion.kind, plan.duration_s, home[2]
     if kind == "fall":
         height = fallen_m(model, duration_s) if plan.start_m is None else plan.start_m
+        is_timed = plan.start_m is not None or plan.motion.start_s is not None
         return ballistic(
             _raised(home, height),
             plan.yaw,
             floor_m=floor,
             restitution=DULL,
-            wait_s=0.1 * duration_s,
+            wait_s=0.0 if is_timed else 0.1 * duration_s,
         )
     height = min(max(3.0 * model.height, 0.8), 2.5) if plan.start_m is None else plan.start_m
     stated = plan.motion.speed_m_s

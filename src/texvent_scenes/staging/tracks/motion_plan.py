@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from texvent_scenes.default_work import AT_REST
 from texvent_scenes.models.activities import (
     ACTIVITIES,
     HAND_GESTURES,
@@ -26,6 +27,7 @@ from texvent_scenes.staging.tracks.phases import (
     PATH_KINDS,
     YAWS,
     done_on_the_way,
+    goes_straight_up,
     needs_steering,
     time_of_work,
     usual_speed,
@@ -135,6 +137,9 @@ def plan_motion(
     if noun.is_working and works_in_turn(motions):
         terms = time_of_work(motions, model, duration_s)
         return MotionPlan(motion, yaw, speed, duration_s, work=terms)
+    if noun.is_working and len(motions) == 1 and motion == AT_REST:
+        stopped = Term("run_s", drift=-1.0)
+        return MotionPlan(motion, yaw, speed, duration_s, work=(stopped,))
     is_wheeled = noun.motion == "drive" or getattr(model, "is_wheeled", False)
     is_facing = _faces_camera(
         noun, model, next((one for one in motions if one.kind != "stand"), motion)
@@ -145,7 +150,9 @@ def plan_motion(
         radius_m=_rolling_radius(model) if motion.kind == "roll" and not is_wheeled else 0.0,
         spin_axis="roll" if is_facing else axle, is_laid=is_tall and motion.kind == "lie", act=act,
     )  # fmt: skip
-    if needs_steering(motions) or (motion.kind == "slide" and noun.motion == "drive"):
+    is_straight = goes_straight_up(motion, noun)
+    is_skid = motion.kind == "slide" and noun.motion == "drive"
+    if needs_steering(motions) or is_skid or is_straight:
         path = build_path(
             motions, noun, model, yaw=yaw, stated_m_s=stated, duration_s=duration_s,
             spin_axis=plan.spin_axis, start_m=start_m,

@@ -29,6 +29,7 @@ from texvent_scenes.staging.tracks.phases import (
     Phase,
     activity_of,
     between,
+    goes_straight_up,
     least_radius,
     oscillations,
     schedule,
@@ -93,7 +94,8 @@ def build_path(
         start_m = fallen_m(model, spans[0] if spans else duration_s)
     builder = _KeyBuilder(
         noun, model, stated_m_s, yaw, is_single=len(phases) == 1, spin_axis=spin_axis,
-        start_m=start_m, has_times=any(one.start_s is not None for one in motions),
+        start_m=start_m, has_times=any(one.start_s is not None for one in motions)
+        or any(goes_straight_up(one, noun) for one in motions[:1]),
     )  # fmt: skip
     builder.hurry(phases)
     for phase in _switched(phases, motions[0]):

@@ -130,6 +130,13 @@ def needs_steering(motions: Sequence[Motion]) -> bool:
     )
 
 
+def goes_straight_up(motion: Motion, noun: Noun) -> bool:
+    """Whether what flies goes straight up or down, as all do but aircraft with wings."""
+    is_aircraft = noun.name in nouns_with("takes off") or noun.habitat != "air"
+    is_upright = motion.kind == "fly" and motion.direction in ("up", "down")
+    return is_upright and not is_aircraft and motion.end_pace is None
+
+
 def fits_in_hand(motion: Motion, noun: Noun) -> bool:
     """Whether what is held does this in the hand: it tilts, turns or works, and goes nowhere."""
     if motion.kind == "turn":  # what drives goes along as it turns

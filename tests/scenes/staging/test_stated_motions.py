@@ -1,0 +1,110 @@
+"""Motions of files hold as they are stated: falls, rest of what works, ways straight up, belts."""
+
+import itertools
+import math
+
+import numpy as np
+from tests.scenes.every_row import for_every
+from tests.scenes.staged import SIZE
+
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.scene_input import describe_scene, understand
+from texvent_scenes.spec.scene import Light, Motion, Place, Relation, Scene, SceneObject
+from texvent_scenes.staging.compose import compose_scene
+
+PLACE = Place("plain", is_empty=True)
+FALLING = ["crate", "box", "bottle", "mug", "book", "football", "cube", "suitcase"]
+WORKING = sorted(name for name, one in NOUNS.items()
+                 if one.is_working and name not in nouns_with("works on demand"))  # fmt: skip
+FLYING = sorted(name for name, one in NOUNS.items()
+                if one.habitat == "air" and one.motion == "fly")  # fmt: skip
+GRAVITY, REBOUND = 9.81, 0.09
+
+
+def compose(*objects, duration_s=2.0, **fields):
+    scene = Scene(objects=objects, **{"place": PLACE, **fields})
+    return compose_scene(describe_scene(scene, NOUNS), seed=1, size=SIZE, duration_s=duration_s)
+
+
+@for_every(itertools.product(FALLING, (0.8, 1.5), (None, 0.0, 0.5), (1.5, 3.0)))
+def test_a_bare_fall_begins_at_its_time_and_rebounds_to_a_tenth(row):
+    noun, height_m, start_s, duration_s = row
+    thing = SceneObject(noun, height_m=height_m, motions=(Motion("fall", start_s=start_s),))
+    (one,) = compose(thing, duration_s=duration_s).actors
+    assert abs(one.lowest_m(0.0) - height_m) < 0.02
+
+    def height(time_s):
+        return one.track.at(time_s).position[2] - one.track.floor_m
+
+    begin_s, drop_m = start_s or 0.0, height(0.0)
+    down_s = math.sqrt(2.0 * drop_m / GRAVITY)
+    assert abs(drop_m - height_m) < 0.03
+    assert height(begin_s) == drop_m
+    assert abs(height(begin_s + 0.5 * down_s) - 0.75 * drop_m) < 1e-9
+    assert abs(height(begin_s + down_s)) < 1e-9
+    assert abs(height(begin_s + 1.3 * down_s) - REBOUND * drop_m) < 1e-9
+
+
+@for_every(WORKING)
+def test_what_works_stands_still_where_a_file_says_no_more_than_that(noun):
+    def change(*motions):
+        scene = compose(SceneObject(noun, motions=motions, position_m=(0.0, 0.0)))
+        (one,) = scene.actors
+        states = [[(each.emission, *each.to_body.ravel()) for each in one.place(at).parts]
+                  for at in (0.0, 0.43, 1.27)]  # fmt: skip
+        return max(float(np.abs(np.subtract(states[0], each)).max()) for each in states[1:])
+
+    assert change(Motion("stand")) == 0.0
+    if noun not in nouns_with("flat pattern"):
+        assert change(Motion("work")) > 0.0
+
+
+def test_a_fan_of_a_sentence_that_stands_somewhere_works():
+    said = understand("a fan stands on a table", NOUNS)
+    assert said.objects[0].motion.kind == "work"
+
+
+@for_every(itertools.product(FLYING, ("up", "down"), (None, 1.0)))
+def test_what_flies_up_or_down_does_so_straight_but_for_aircraft_with_wings(row):
+    noun, way, speed = row
+    motion = Motion("fly", way, speed_m_s=speed)
+    (one,) = compose(
+        SceneObject(noun, motions=(motion,), position_m=(1.0, 2.0), height_m=9.0)
+    ).actors
+    first, last = (np.array(one.track.at(at).position) for at in (0.0, 2.0))
+    assert (last[2] > first[2]) == (way == "up")
+    aside = float(np.hypot(*(last - first)[:2]))
+    if noun in nouns_with("takes off"):
+        assert aside > 1.0
+        return
+    assert aside < 0.05 * abs(last[2] - first[2])
+    if speed:
+        assert abs(abs(last[2] - first[2]) - 2.0 * speed) < 0.3
+
+
+@for_every(
+    itertools.product(("box", "bottle", "cup"), (0.1, 0.5), ("left", "right"), (True, False))
+)
+def test_a_belt_that_runs_on_is_told(row):
+    noun, speed, way, is_stated = row
+    belt = SceneObject("conveyor belt", id="belt", position_m=(0.0, 0.0),
+                       motions=(Motion("work", way, speed_m_s=speed),))  # fmt: skip
+    place = {"position_m": (0.0, 0.0)} if is_stated else {}
+    thing = SceneObject(noun, relations=(Relation("on", ("belt",)),), **place)
+    scene = compose(belt, thing, duration_s=6.0)
+    told = [one for one in scene.notes if "the belt runs on" in one]
+    track = scene.actors[1].track
+    rests = math.dist(track.at(5.0).position, track.at(5.9).position) < 1e-9
+    assert len(told) == rests
+    assert rests == (speed == 0.5)
+
+
+@for_every(itertools.product(("led", "street lamp", "traffic light"), (4.0, 100.0)))
+def test_a_lamp_that_blinks_does_not_make_it_night_in_a_file(row):
+    noun, rate = row
+    one = SceneObject(noun, blink_hz=rate, motions=(Motion("stand"),))
+    for light in (Light(), Light("day"), Light("night")):
+        said = describe_scene(Scene(objects=(one,), place=PLACE, light=light), NOUNS)
+        assert said.light.kind == light.kind
+    assert understand("an LED blinks", NOUNS).light.kind == "night"
