@@ -15,6 +15,7 @@ from texvent._registry import suggest
 from texvent.cli.notices import result_console, write_out
 from texvent.cli.options import parse_configs
 from texvent.errors import InputError, shown
+from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.scene_input import list_nouns, list_words
 from texvent_scenes.spec.files import json_schema
@@ -23,8 +24,9 @@ from texvent_scenes.words import list_plurals
 
 DESCRIPTION = """List what prompts of the embedded generator can name: nouns by family, with their
 other names, models of a folder of your own first; then motions, activities, places, lights,
-weather, effects, colours, materials and camera moves. With a word, those that have it in a name,
-and the sizes of nouns; `texvent generate "a car" --preview car.png` draws one.
+weather, effects, colours, materials and camera moves. With a word, those that have it in a name, of
+nouns with the size (length x width x height, length along x at heading 0) and the motions of their
+own; `texvent generate "a car" --preview car.png` draws one.
 
   texvent scenes
   texvent scenes car
@@ -62,7 +64,7 @@ def run(arguments: Sequence[str]) -> int:
     rows += [(kind, names, None) for kind, names in list_kinds()]
     titles = ["family", "word", "also called"]
     if options.word is not None:
-        titles.append("size")
+        titles += ["size", "motions of its own"]
         wanted = options.word.lower().strip()
         word = re.compile(rf"\b{re.escape(wanted)}\b")
         known = tuple(name for _, names, _ in rows for name in names)
@@ -75,11 +77,18 @@ def run(arguments: Sequence[str]) -> int:
             raise InputError(f"{shown(wanted)} is in no list; {suggest(wanted, known)}")
     table = Table(*titles, box=None, pad_edge=False)
     for family, names, noun in rows:
-        size = ["" if noun is None else _size(noun)] if options.word is not None else []
-        table.add_row(family, names[0], ", ".join(names[1:]), *size)
+        more = [] if options.word is None else ["", ""] if noun is None else _tell(noun)
+        table.add_row(family, names[0], ", ".join(names[1:]), *more)
     with result_console() as console:
         console.print(table)
     return 0
+
+
+def _tell(noun: Noun) -> list[str]:
+    """Its size, and the motions that it has beside those of all bodies, the usual one first."""
+    usual = "work" if noun.is_working else noun.motion
+    kinds = [usual, *(["activities"] if noun.name in PERSON_NOUNS else sorted(noun.acts))]
+    return [_size(noun), ", ".join(dict.fromkeys(kinds))]
 
 
 def _size(noun: Noun) -> str:

@@ -199,7 +199,7 @@ def _tell_dark(description: SceneDescription, place: PlaceModel) -> Iterator[str
     if is_unlit_room(place, description):
         yield (
             f"the {description.place.name} is dark at {description.light.kind}: the lamps and "
-            'screens of its own are off (the light "lamp" has them on)'
+            'screens of its own are off (is_lit of the place, or the light "lamp", has them on)'
         )
 
 
