@@ -158,7 +158,8 @@ def test_things_on_the_ground_stand_on_it(noun):
         lowest = all_points(model, pose)[:, 2].min()
         assert lowest >= -0.05 * max(1.0, model.height / 10.0), pose
         if pose.activity in ("stand", "move") and noun.name not in HOPPERS:
-            assert lowest <= 0.02 + 0.06 * model.height, pose
+            slack = 0.02 if pose.activity == "stand" else 0.06
+            assert lowest <= 0.02 + slack * model.height, pose
 
 
 @pytest.mark.long
