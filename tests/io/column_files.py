@@ -33,6 +33,8 @@ def write_columns(path: Path, columns: dict[str, NDArray[Any]]) -> Path:
             pytest.importorskip("pyarrow.parquet").write_table(table, path)
         case _:
             mark = "," if kind == "csv" else " "
-            rows = [columns, *zip(*(one.tolist() for one in columns.values()), strict=True)]
-            path.write_text("".join(mark.join(map(str, row)) + "\n" for row in rows))
+            rows = zip(*(one.tolist() for one in columns.values()), strict=True)
+            texts = [[f"{one:.16g}" if isinstance(one, float) else str(one) for one in row]
+                     for row in rows]  # fmt: skip
+            path.write_text("".join(mark.join(row) + "\n" for row in [columns, *texts]))
     return path

@@ -141,7 +141,7 @@ def place_camera(
 
 
 def _tell_ends(path: CameraTrack) -> Iterator[str]:
-    """Where a camera that moves from a stated pose is at the start and at the end."""
+    """Poses at the start and at the end of a camera that moves from a stated one."""
     first, last = (path.at(time_s) for time_s in (0.0, path.duration_s))
     if path.is_stated and any(one.move.kind != "static" for one in path.moves):
         yield f"the camera begins {_tell_pose(first)}; at the end it is {_tell_pose(last)}"
