@@ -160,9 +160,9 @@ def _list_loose(description: SceneDescription) -> Iterator[tuple[int, Sequence[s
 
 
 def _list_floored(description: SceneDescription, place: str) -> Iterator[str]:
-    """Notes on small things that a sentence leaves on the floor of a room."""
+    """Notes on small things that a scene leaves on the floor of a room."""
     nouns = {one.noun for one in description.objects}
-    for n, _ in _list_loose(description) if is_room(place) and description.is_sentence else ():
+    for n, _ in _list_loose(description) if is_room(place) else ():
         noun = description.objects[n].noun
         if not (nouns & PERSON_NOUNS and noun in nouns_with("in hand or on something")):
             yield f"nothing carries the {noun}: it stands on the floor"
@@ -223,7 +223,8 @@ def _set_on_routes(
     for one in routes:
         thing, to = objects[one.subject], objects[one.targets[0]]
         noun, leader = nouns[thing.noun], nouns[to.noun]
-        is_led = one.kind == "follow" and len(to.motions) > 1 and all(map(_is_plain, thing.motions))
+        bends = len(to.motions) > 1 or [each.kind for each in to.motions] == ["turn"]
+        is_led = one.kind == "follow" and bends and all(map(_is_plain, thing.motions))
         is_said = thing.motions and not is_led
         if is_said or noun.speed_m_s <= 0.0 or noun.habitat == "fixed":
             continue

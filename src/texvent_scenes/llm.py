@@ -19,6 +19,7 @@ from texvent.prompt_report import PromptReport
 from texvent_scenes.meanings import list_meanings, meanings_of
 from texvent_scenes.read.parsing.lexicon import lexicon_of
 from texvent_scenes.read.parsing.tokens import Token, split_prompt
+from texvent_scenes.scene_input import list_nouns, settle_words
 from texvent_scenes.spec import scene as spec
 from texvent_scenes.spec.data import scene_from_data
 from texvent_scenes.spec.tables import field_types, inner_type, plain_type, required_fields
@@ -170,7 +171,8 @@ def ground(prompt: str, answer: Mapping[str, Any]) -> tuple[spec.Scene, PromptRe
         not_understood=tuple(word for word, is_lost in words.items() if is_lost),
         notes=(f"words do not say, so it is left out: {added}",) if added else (),
     )
-    return scene_from_data({"prompt": prompt, **data}), report
+    scene = scene_from_data({"prompt": prompt, **data})
+    return settle_words(scene, report, list_nouns()), report
 
 
 class _Grounding:

@@ -77,7 +77,8 @@ def _read(prompt: str, nouns: Mapping[str, Noun]) -> tuple[Reading, dict[str, st
             f"the prompt is {what}; describe a scene, or name its .toml or .json file (videos: "
             "texvent simulate, or the column `video` of a list)"
         )
-    reading = _settle_place(reader.read(prompt, nouns), nouns)
+    reading = reader.read(prompt, nouns)
+    reading = replace(reading, scene=settle_words(reading.scene, _words_of(reading), nouns))
     if not _has_subject(reading):
         words = few(reading.not_understood, MOST_WORDS)
         read = few(reading.shown, MOST_WORDS)
@@ -92,8 +93,8 @@ def _read(prompt: str, nouns: Mapping[str, Noun]) -> tuple[Reading, dict[str, st
     return _without_idle(reading, nouns)
 
 
-def _settle_place(reading: Reading, nouns: Mapping[str, Noun]) -> Reading:
-    """The reading with fields that words of sentences say otherwise than those of files.
+def settle_words(scene: Scene, words: PromptReport, nouns: Mapping[str, Noun]) -> Scene:
+    """The scene of a sentence with fields that its words say otherwise than those of files.
 
     A room at night is lit, "an empty street" is one without people and traffic, and a fan that
     stands somewhere works there.
@@ -103,20 +104,18 @@ def _settle_place(reading: Reading, nouns: Mapping[str, Noun]) -> Reading:
     from texvent_scenes.description import to_description
     from texvent_scenes.models.places import PLACES
 
-    scene = reading.scene
     objects = tuple(replace(one, motions=()) if stands_still(one, nouns[one.noun]) else one
                     for one in scene.objects)  # fmt: skip
     scene = replace(scene, objects=objects)
     place, absent = scene.place, scene.absent
-    decided = complete(replace(to_description(scene), words=_words_of(reading)), nouns)
+    decided = complete(replace(to_description(scene), words=words), nouns)
     model = PLACES[decided.place.name or "grass"]
     if place.is_empty and not model.is_cleared and model.scenery:
         place = replace(place, is_empty=False)
         movers = (one.noun for one in model.scenery if nouns[one.noun].speed_m_s > 0.0)
         absent = tuple(dict.fromkeys((*absent, *movers)))
     is_lit = decided.light.kind in ("night", "moonlight") and model.is_room
-    place = replace(place, is_lit=is_lit)
-    return replace(reading, scene=replace(scene, place=place, absent=absent))
+    return replace(scene, place=replace(place, is_lit=is_lit), absent=absent)
 
 
 def _words_of(reading: Reading) -> PromptReport:

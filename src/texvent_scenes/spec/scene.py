@@ -300,8 +300,8 @@ class Place:
     """Crossing of the roads, at right angles, m; off the road, a point on the other one. Left out:
     7 m along the road from its first vehicle, or where that turns."""
     is_empty: bool = False
-    """Whether scenery and furniture are left out; walls with what is painted on them, lines on the
-    ground, tracks and `backdrops` stay."""
+    """Whether scenery and furniture are left out; walls with their windows and pictures, lines on
+    the ground, tracks and `backdrops` stay."""
     is_lit: bool = False
     """Whether the lamps and screens of a room are on at night and by moonlight; left out: only
     lamps of the scene are."""

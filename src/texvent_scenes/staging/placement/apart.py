@@ -348,10 +348,11 @@ def list_beside(
 
 
 def borne_places(description: SceneDescription, index: int) -> list[tuple[float, float]]:
-    """Stated positions of the things that an object bears, m."""
-    borne = (one for n, one in enumerate(description.objects)
-             if index in (bearer_of(description, n) or ("", ()))[1])  # fmt: skip
-    return [one.position_m for one in borne if one.position_m is not None]
+    """Stated positions of the things that an object bears, and of who rides it, m."""
+    borne = dict.fromkeys(one.subject for one in description.relations
+                          if one.kind in (*RESTING, "ride") and index in one.targets)  # fmt: skip
+    places = (description.objects[n].position_m for n in borne)
+    return [one for one in places if one is not None]
 
 
 def is_measured(description: SceneDescription, index: int) -> bool:

@@ -195,6 +195,8 @@ class ObjectPlacer:
         join_way(group, self.groups.values())
         goal = self._choose_goal(group, related)
         self._match_paces(group)
+        if borne := borne_places(self._description, index):  # it is below what it bears
+            group.begins = np.mean([np.min(borne, axis=0), np.max(borne, axis=0)], axis=0)
         group.centre = self._find_free_position(group, goal)
         group.gather()
         self._start_where_said(group)
@@ -336,10 +338,6 @@ class ObjectPlacer:
 
     def _choose_free_goal(self, group: ObjectGroup, height: float) -> Goal:
         """In the middle, or at the side of the image that the scene says."""
-        borne = borne_places(self._description, group.index)
-        if borne and group.scene_object.position_m is None:  # it is below what it bears
-            x, y = group.begins = np.mean([np.min(borne, axis=0), np.max(borne, axis=0)], axis=0)
-            return Goal(np.array([x, y, height]), np.zeros(3))
         side = group.scene_object.placement or ""
         offset = _SIDES.get(side, 0.0) * 2.0 * group.size_m
         offset += self._spread_apart(group) + self._stagger(group)
