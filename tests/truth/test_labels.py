@@ -97,6 +97,11 @@ def test_a_track_may_tremble(tmp_path, right):
     assert read_labels(tmp_path / "a.txt", SIZE).boxes["x"].tolist() == [0, right - 1, 0]
 
 
+def test_a_track_may_go_as_far_in_each_of_many_frames(tmp_path):
+    (tmp_path / "a.txt").write_text("1,4,1,1,3,4,1,1\n21,4,36,1,3,4,1,1\n")
+    assert read_labels(tmp_path / "a.txt", SIZE).boxes["x"].tolist() == [0, 35]
+
+
 TIMES = np.array([1_000, 2_000, 3_000, 4_000])
 IDS = {"1": 4, "2": 0}
 

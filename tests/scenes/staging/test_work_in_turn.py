@@ -98,6 +98,32 @@ def test_a_belt_runs_back_with_what_is_on_it(row):
     np.testing.assert_allclose(np.diff(x), [sign * speed, 0.0, -sign * speed], atol=1e-9)
 
 
+@for_every(itertools.product(WORKING, (0.5, 2.0), (0.3, 1.1)))
+def test_what_works_at_another_pace_from_a_time_on_does_not_jump(row):
+    noun, end_pace, start_s = row
+    later = Motion("work", end_pace=end_pace, start_s=start_s)
+    (actor,) = work(noun, Motion("work"), later)
+    assert actor.pose(0.0).time_s == pytest.approx(0.0, abs=1e-9)
+    times_s = np.linspace(0.0, 2.9, 291)
+    paces = np.diff([actor.pose(t).time_s for t in times_s]) / 0.01
+    assert (np.abs(np.diff(paces)) < 0.02).all()
+    assert paces[0] == pytest.approx(1.0)
+    assert paces[-1] == pytest.approx(end_pace, abs=0.1)
+
+
+@for_every(itertools.product(BELTS, ("cup", "box"), (2, 3, 4), (0.05, 0.2)))
+def test_a_row_on_a_belt_is_as_wide_whichever_way_it_runs(row):
+    belt, noun, count, speed = row
+    things = SceneObject(noun, count=count, relations=(Relation("on", (belt,)),))
+    steps = []
+    for way in ("left", "right", "clockwise", "counterclockwise"):
+        _, *borne = work(belt, Motion("work", way, speed_m_s=speed), bears=(things,))
+        x = [one.track.at(0.0).position[0] for one in borne]
+        steps.append(np.diff(x))
+        assert np.ptp(np.abs(steps[-1])) < 1e-9
+    assert np.ptp(np.abs(steps), axis=0).max() < 1e-9
+
+
 @pytest.mark.parametrize("belt", BELTS)
 @pytest.mark.parametrize("way", ["towards", "away", "up"])
 def test_the_usual_motion_of_a_belt_moves_no_machine(belt, way):
