@@ -17,9 +17,10 @@ from typing import Any, Literal, get_args, get_origin
 from texvent.errors import ConfigError, InputError, TexventError, one_line, shown
 from texvent.prompt_report import PromptReport
 from texvent_scenes.meanings import list_meanings, meanings_of
+from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.read.parsing.lexicon import lexicon_of
 from texvent_scenes.read.parsing.tokens import Token, split_prompt
-from texvent_scenes.scene_input import list_nouns, settle_words
+from texvent_scenes.sentence_defaults import settle_words
 from texvent_scenes.spec import scene as spec
 from texvent_scenes.spec.data import scene_from_data
 from texvent_scenes.spec.tables import field_types, inner_type, plain_type, required_fields
@@ -172,7 +173,7 @@ def ground(prompt: str, answer: Mapping[str, Any]) -> tuple[spec.Scene, PromptRe
         notes=(f"words do not say, so it is left out: {added}",) if added else (),
     )
     scene = scene_from_data({"prompt": prompt, **data})
-    return settle_words(scene, report, list_nouns()), report
+    return settle_words(scene, report, NOUNS), report
 
 
 class _Grounding:

@@ -107,7 +107,7 @@ AIMS = [(x, z) for x in (-7.0, -3.0, 2.0) for z in (-2.0, 1.0, 4.0)]
 @pytest.mark.long
 def test_a_note_tells_how_long_a_still_camera_shows_what_moves():
     """Whether a corner of its box is in the image at each of seven instants."""
-    movers = thing("car", ("drive", "right")), thing("drone", ("fly", "up"))
+    movers = thing("car", ("drive", "right")), thing("drone", ("fly", "diagonal"))
     times, kinds = np.linspace(0.0, DURATION_S, 7), set()
     for mover, (x, z) in itertools.product(movers, AIMS):
         view = {"position": (x, -9.0, z), "target": (x, 0.0, z)}
