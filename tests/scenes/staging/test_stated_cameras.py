@@ -2,6 +2,7 @@
 
 import itertools
 import math
+import re
 
 import numpy as np
 import pytest
@@ -64,6 +65,19 @@ def test_a_camera_that_looks_straight_down_or_up_turns_as_others_do(row):
     assert turn == pytest.approx(rate, abs=1e-6)
     if kind != "tilt":
         np.testing.assert_allclose(last.rotation[2], first.rotation[2], atol=1e-9)
+
+
+@for_every(itertools.product(POSES, ("left", "right"), (0.0, 25.0), (0.0, 40.0)))
+def test_the_stated_heading_is_where_the_camera_looks_however_it_rolls(row):
+    pose, way, roll_deg_s, pan_deg_s = row
+    moves = [CameraMove("pan", way, rate_deg_s=pan_deg_s)] * (pan_deg_s > 0.0)
+    moves += [CameraMove("roll", way, rate_deg_s=roll_deg_s)] * (roll_deg_s > 0.0)
+    scene = film(pose, *moves or [CameraMove("dolly", "in", speed_m_s=0.1)])
+    x, y, z = scene.camera(2.0).rotation[2]
+    said = re.findall(r"heading ([\d.]+) degrees", scene.camera_path.notes[0])
+    if abs(z) < 0.99:
+        turn = float(said[-1]) - math.degrees(math.atan2(y, x))
+        assert abs((turn + 180.0) % 360.0 - 180.0) < 0.06
 
 
 def test_a_dolly_from_a_stated_pose_goes_on_past_the_point_that_it_looks_at():

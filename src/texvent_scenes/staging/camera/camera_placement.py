@@ -74,6 +74,8 @@ _TOLD = {"past": 0.8, "through": 0.8, "hold": 0.15, "follow": 0.15}
 is after, from which on all the way is shown."""
 _LEAST_PASSAGE, _SEEN = 0.4, 0.16
 """Least share of the clip that a passage lasts, where the subject is then as prominent as this."""
+_LEAST_HORIZONTAL = 1e-6
+"""Horizontal part of the direction of a camera, of 1, below which it looks straight up or down."""
 _LEAVING = frozenset({"pan", "tilt", "truck", "pedestal", "zoom", "dolly"})
 """Moves that can lose the subject."""
 _VISIBLE_SHARE, _CHECKS, _TRIES = 0.97, 41, 10
@@ -150,8 +152,10 @@ def _tell_ends(path: CameraTrack) -> Iterator[str]:
 def _tell_pose(camera: PosedCamera) -> str:
     """Place, heading, pitch and field of view of a camera."""
     x, y, z = (round(float(one), 2) + 0.0 for one in camera.position)
-    right, forward = camera.rotation[0], camera.rotation[2]
-    heading = math.degrees(math.atan2(right[1], right[0])) + 90.0
+    down, forward = camera.rotation[1:]
+    has_heading = math.hypot(forward[0], forward[1]) > _LEAST_HORIZONTAL
+    ahead = forward if has_heading else down * math.copysign(1.0, forward[2])  # top of a nadir view
+    heading = math.degrees(math.atan2(ahead[1], ahead[0]))
     pitch = math.degrees(math.asin(min(max(float(forward[2]), -1.0), 1.0)))
     view = 2.0 * math.degrees(math.atan(0.5 / camera.focal))
     return (f"at ({x:g}, {y:g}, {z:g}) m, heading {round(heading % 360.0, 1) % 360.0:g} degrees, "
