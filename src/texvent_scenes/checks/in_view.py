@@ -8,7 +8,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections import Counter
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Container, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -131,7 +131,6 @@ def find_unseen(
                 notes.append(f"the {label} is small in the picture: about {most} pixels")
             lines = small if found.is_small else outside
             lines += [f"{label}{found.words}"] if found.words is not None else []
-
             unseen |= {index} if found.is_unseen else set()
             partly |= {index} if found.is_partly else set()
     inside_one = _list_inside(description, scene.actors)
@@ -139,10 +138,8 @@ def find_unseen(
     unseen, partly, hidden = unseen | inside_one, partly | inside_one, unseen - partly
     unseen |= {one.targets[0] for one in description.relations if one.subject in hidden
                and one.kind == "wear" and not any(bodies[one.targets[0]])}  # fmt: skip
-    bodied = {one.object_index for one in scene.actors}
-    riders = {one.subject for one in description.relations if one.kind == "ride"
-              and one.targets[0] in unseen and one.subject not in bodied | unseen}  # fmt: skip
-    outside += [f"{label_of(description, index)}" for index in sorted(riders)]
+    riders = _list_riders(scene, description, unseen)
+    outside += [label_of(description, index) for index in sorted(riders)]
     unseen |= riders
     lines, lost, cut, violations = _find_slight(scene, description, unseen, clip)
     outside, unseen, partly = outside + lines, unseen | lost | cut, partly | cut
@@ -150,15 +147,8 @@ def find_unseen(
     violations += [*_list_words_of(description, unseen, partly)]
     violations += find_unlike(description, scene.actors, scene.missing)
     violations += _find_unrealised(scene, description, bodies, times)
-    violations += find_undone(description, scene.actors, seen, times)
-    violations += find_tiny(description, scene.actors, cameras, times, size)
-    violations += find_near(scene, description, cameras, times)
-    violations += find_misframed(scene, description, cameras, times, size)
-    notes += [*list_hidden(scene, seen, cameras, times, size)]
-    notes += list_own_walls(scene, description)
-    notes += list_headless(description, scene.actors, cameras, times, size)
-    notes += list_covering(scene, description, seen, _count_points(size), times, unseen)
-    notes += () if description.camera.is_moving else list_departures(scene, cameras, times, size)
+    violations += _find_misstaged(scene, description, clip, seen)
+    notes += _list_notes(scene, description, clip, seen, unseen)
     return Unseen(
         tuple(dict.fromkeys(outside)), tuple(dict.fromkeys(small)),
         tuple(dict.fromkeys(violations)), tuple(dict.fromkeys(notes)),
@@ -173,6 +163,39 @@ class _Clip(NamedTuple):
     times: Sequence[float]
     size: SensorSize
     is_camera_moving: bool
+
+
+def _list_riders(scene: ComposedScene, description: SceneDescription, unseen: set[int]) -> set[int]:
+    """Riders without a body of their own, whose mount is unseen."""
+    bodied = {one.object_index for one in scene.actors}
+    return {one.subject for one in description.relations if one.kind == "ride"
+            and one.targets[0] in unseen and one.subject not in bodied | unseen}  # fmt: skip
+
+
+def _find_misstaged(
+    scene: ComposedScene, description: SceneDescription, clip: _Clip,
+    seen: Mapping[int, Sequence[int]],
+) -> Iterator[Violation]:  # fmt: skip
+    """Motions, distances and framings that the clip does not show as they are said."""
+    cameras, times, size, _ = clip
+    yield from find_undone(description, scene.actors, seen, times)
+    yield from find_tiny(description, scene.actors, cameras, times, size)
+    yield from find_near(scene, description, cameras, times)
+    yield from find_misframed(scene, description, cameras, times, size)
+
+
+def _list_notes(
+    scene: ComposedScene, description: SceneDescription, clip: _Clip,
+    seen: Mapping[int, Sequence[int]], unseen: Container[int],
+) -> Iterator[str]:  # fmt: skip
+    """Notes of bodies that are hidden, cut off, in the way, or leave the view."""
+    cameras, times, size, _ = clip
+    yield from list_hidden(scene, seen, cameras, times, size)
+    yield from list_own_walls(scene, description)
+    yield from list_headless(description, scene.actors, cameras, times, size)
+    yield from list_covering(scene, description, seen, _count_points(size), times, unseen)
+    if not description.camera.is_moving:
+        yield from list_departures(scene, cameras, times, size)
 
 
 def _list_related(description: SceneDescription) -> set[int]:

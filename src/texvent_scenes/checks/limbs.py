@@ -82,7 +82,7 @@ def list_headless(
     times: Sequence[float],
     size: SensorSize,
 ) -> Iterator[str]:
-    """Notes of people of whom only a part without the head is in the image: who is that?"""
+    """Notes of people of whom only a part without the head is in the image."""
     for index, said in enumerate(description.objects):
         own = [one for one in actors if one.object_index == index]
         if own and said.noun in PERSON_NOUNS - {"person"} and not _has_head(

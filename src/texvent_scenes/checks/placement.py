@@ -335,7 +335,7 @@ class _Bodies:
     def find_intersections(self) -> Iterator[Violation]:
         """Pairs of bodies, of which the middle of one is in the other.
 
-        Those of stated places may meet for an instant: for them it is told when.
+        Those of stated places may meet for an instant, which the line names.
         """
         objects = self._description.objects
         is_put = [objects[one.object_index].position_m is not None for one in self._actors]

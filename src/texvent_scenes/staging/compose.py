@@ -151,12 +151,7 @@ def compose_scene(
     placer = ObjectPlacer(
         description, nouns, seed=seed, duration_s=duration_s, level_m=levels, travel=travel
     )
-    actors = placer.place_all()
-    if travel is None:
-        actors = part_turns(description, PLACES[place], actors)
-        actors = keep_to_zones(description, PLACES[place], actors, duration_s)
-    actors = follow_ways(description, actors, duration_s)
-    actors = break_up(description, actors, duration_s)
+    actors = _lead(description, place, placer.place_all(), duration_s, has_route=travel is not None)
     ground = contrasting(PLACES[place], description, actors)
     camera_path = place_camera(
         description, actors, place, seed=seed, aspect=size.height / size.width,
@@ -192,6 +187,17 @@ def compose_scene(
          *_tell_dark(description, ground)),
         placer.orphans, tuple(items), tuple(_list_threads(description, actors, duration_s)),
     )  # fmt: skip
+
+
+def _lead(
+    description: SceneDescription, place: str, actors: list[Actor], duration_s: float, *,
+    has_route: bool,
+) -> list[Actor]:  # fmt: skip
+    """Actors in lanes and on pavements, followers behind leaders, and broken bodies in pieces."""
+    if not has_route:
+        actors = part_turns(description, PLACES[place], actors)
+        actors = keep_to_zones(description, PLACES[place], actors, duration_s)
+    return break_up(description, follow_ways(description, actors, duration_s), duration_s)
 
 
 def _tell_dark(description: SceneDescription, place: PlaceModel) -> Iterator[str]:

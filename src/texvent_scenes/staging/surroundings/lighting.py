@@ -103,7 +103,7 @@ _THROUGH_WINDOWS = 0.2
 
 
 def is_unlit_room(place: PlaceModel, scene: Scene) -> bool:
-    """Whether a room at night has no light of its own; of sentences somebody has put it on."""
+    """Whether a room at night has no light of its own; those of sentences have it on."""
     is_night = scene.light.kind in ("night", "moonlight")
     return place.is_room and is_night and not scene.place.is_lit
 

@@ -28,7 +28,7 @@ _KERB_M = 0.2
 _ROADSIDE = 1.4
 """Distance of walkers from the middle of a road without pavement, in lanes."""
 USUAL_S = 2.0
-"""Time at which what moves is looked at again, s: the end of a usual clip."""
+"""End of a usual clip, s, at which moving bodies are looked at again."""
 _CROSSING_AHEAD_M = 7.0
 """Distance of a crossing from the camera, m."""
 _DRIVEN_M_S, _CAB_M, _LEVEL, _ALONG = 2.5, 3.5, 0.25, 0.45
