@@ -27,6 +27,7 @@ _LISTS = (
     "too_small",
     "notes",
     "meant",
+    "caption",
 )
 """Fields of a report that are lists of words or lines."""
 _OF_OBJECTS = ("out of view", "too small")
@@ -88,6 +89,9 @@ class PromptReport:
     """Decisions where the prompt leaves a choice open, as sentences."""
     meant: tuple[str, ...] = ()
     """Words that are not understood and spelt nearly as a noun, such as "fokrlift: forklift"."""
+    caption: tuple[str, ...] = ()
+    """The clip as it is drawn, measured on its scene and not read from the prompt: its place, each
+    object and the camera, a line each. Shares of the picture are the greatest over the clip."""
 
     @property
     def is_faithful(self) -> bool:
@@ -124,7 +128,8 @@ class PromptReport:
 
     def lines(self) -> list[str]:
         """The whole report but for the words that are shown, a line each."""
-        return [*self.scene, *self.notes, *self.faults()]
+        drawn = (f"drawn: {line}" for line in self.caption)
+        return [*self.scene, *self.notes, *self.faults(), *drawn]
 
     def refusal(self) -> str | None:
         """Reason for which `strict` refuses the prompt; None where there is none."""

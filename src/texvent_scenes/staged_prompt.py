@@ -10,8 +10,10 @@ from functools import lru_cache
 from texvent.prompt_report import PromptReport
 from texvent.sensor import SensorSize
 from texvent_scenes.assets.nouns import list_files
+from texvent_scenes.checks.caption import caption
 from texvent_scenes.checks.in_view import Unseen, find_unseen, without_words
 from texvent_scenes.checks.relations import Violation
+from texvent_scenes.checks.staged_clip import StagedClip
 from texvent_scenes.checks.words import find_held
 from texvent_scenes.description import STANDING, SceneDescription
 from texvent_scenes.meanings import list_meanings
@@ -50,7 +52,9 @@ def stage(
     files = list_files(description, named)
     nouns = tuple(named[one.noun] for one in description.objects)
     contents = tuple(tuple(one.values()) for one in files)
-    scene, unseen, held, failed = _staged(description, nouns, contents, seed, size, duration_s)
+    scene, unseen, held, failed, drawn = _staged(
+        description, nouns, contents, seed, size, duration_s
+    )
     faults = (*unseen.violations, *_list_manners(description, unseen.violations))
     faults = (*faults, *(one._replace(value=VARIANTS[str(one.value)]) for one in faults
                          if one.kind == "noun" and one.value in VARIANTS))  # fmt: skip
@@ -85,6 +89,7 @@ def stage(
         not_shown=(*_as_said(lines), *lost),
         out_of_view=_as_said(out_of_view),
         too_small=_as_said(unseen.too_small),
+        caption=drawn,
     )  # fmt: skip
     return scene, report, files
 
@@ -151,8 +156,8 @@ def _staged(
     seed: int,
     size: SensorSize,
     duration_s: float,
-) -> tuple[ComposedScene, Unseen, frozenset[str], frozenset[str]]:
-    """A scene, what it does not show, and words whose claims hold or do not.
+) -> tuple[ComposedScene, Unseen, frozenset[str], frozenset[str], tuple[str, ...]]:
+    """A scene, what it does not show, words whose claims hold or do not, and its caption.
 
     They are kept, since one scene is often simulated several times.
     Assets are shown where the prompt names them, not as scenery.
@@ -172,4 +177,5 @@ def _staged(
     )
     unseen = find_unseen(scene, description, size, duration_s)
     held = find_held(description.claims, scene, description, unseen.gone, size, duration_s)
-    return scene, unseen, *held
+    clip = StagedClip(scene, description, size, duration_s)
+    return scene, unseen, *held, caption(clip, unseen.views)

@@ -289,6 +289,7 @@ def describe_scene(metadata: Mapping[str, Any], *, with_words: bool = False) -> 
     if report is None:
         return
     yield from (f"scene    {line}" for line in (*report.scene, *report.notes))
+    yield from (f"drawn    {line}" for line in report.caption)
     if with_words and report.shown:
         yield f"shown    {', '.join(report.shown)}"
 

@@ -10,6 +10,7 @@ import math
 from collections import Counter
 from collections.abc import Collection, Container, Iterator, Mapping, Sequence
 from dataclasses import replace
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -80,6 +81,17 @@ _ADJECTIVES = ("count", "size", "colour", "material", "placement")
 """Fields of an object that adjectives say."""
 
 
+class View(NamedTuple):
+    """The most that is seen of a body."""
+
+    pixels: int
+    """Its pixels at the instant that shows most of it."""
+    share: float
+    """Share of those that it would have if nothing stood before it."""
+    at: tuple[int, ...] = ()
+    """Points of the grid that show it at each instant."""
+
+
 class Unseen(NamedTuple):
     """Words of a scene that a clip does not show."""
 
@@ -93,6 +105,8 @@ class Unseen(NamedTuple):
     """Such as "the ball leaves the view after 1.3 s"."""
     gone: frozenset[int] = frozenset()
     """Indices of objects of which so little is seen that nothing is told of them."""
+    views: Mapping[int, View] = MappingProxyType({})
+    """Instance id → the most that is seen of it."""
 
 
 def find_unseen(
@@ -152,7 +166,7 @@ def find_unseen(
     return Unseen(
         tuple(dict.fromkeys(outside)), tuple(dict.fromkeys(small)),
         tuple(dict.fromkeys(violations)), tuple(dict.fromkeys(notes)),
-        frozenset(unseen - partly - scene.missing),
+        frozenset(unseen - partly - scene.missing), views,
     )  # fmt: skip
 
 
@@ -365,17 +379,6 @@ def _is_cut_off(
             if float(np.prod(inside / np.diff(box, axis=0))) >= least:
                 return False
     return True
-
-
-class View(NamedTuple):
-    """The most that is seen of a body."""
-
-    pixels: int
-    """Its pixels at the instant that shows most of it."""
-    share: float
-    """Share of those that it would have if nothing stood before it."""
-    at: tuple[int, ...] = ()
-    """Points of the grid that show it at each instant."""
 
 
 def count_pixels(

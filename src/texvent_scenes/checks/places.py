@@ -76,7 +76,7 @@ def find_unseen_place(
         yield Violation("place", str(said.name), f"the {said.name}: it is as wide as a room")
     instants = [*zip(times, cameras, strict=True)]
     is_open = not (scene.place.is_room or scene.place.is_backdrop) and (said.clouds or names_sky)
-    if is_open and not any(_share_of_sky(scene, *one) >= _LEAST_SKY for one in instants):
+    if is_open and not any(share_of_sky(scene, *one) >= _LEAST_SKY for one in instants):
         if said.clouds:
             yield Violation("clouds", "", "clouds: the sky is out of view")
         yield Violation("place", "sky", "" if said.clouds else "the sky: it is out of view")
@@ -193,7 +193,7 @@ def _has_shore(scene: ComposedScene, time_s: float, camera: PosedCamera) -> bool
     return own * share >= _LEAST_SHORE
 
 
-def _share_of_sky(scene: ComposedScene, time_s: float, camera: PosedCamera) -> float:
+def share_of_sky(scene: ComposedScene, time_s: float, camera: PosedCamera) -> float:
     """Share of an image that nothing stands before."""
     x, y = np.meshgrid(np.arange(_SIZE.width) + 0.5, np.arange(_SIZE.height) + 0.5)
     depth, _ = visible_instances(scene, time_s, _SIZE, np.stack([x, y], axis=-1).reshape(-1, 2))

@@ -1,0 +1,282 @@
+"""Caption of a staged clip: its place, bodies and camera in words, as they are drawn.
+
+Each line is measured on the scene, not read from the prompt, so that both can be compared.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
+from itertools import groupby
+
+import numpy as np
+
+from texvent.camera import PosedCamera
+from texvent_scenes.checks.body_boxes import BodyBoxes
+from texvent_scenes.checks.in_view import View
+from texvent_scenes.checks.looks import is_ball
+from texvent_scenes.checks.places import share_of_sky
+from texvent_scenes.checks.staged_clip import StagedClip
+from texvent_scenes.checks.water import wet_share
+from texvent_scenes.colours import SURFACES, find_colour
+from texvent_scenes.models.materials import share_of
+from texvent_scenes.models.nouns import VARIANTS
+from texvent_scenes.models.places import PLACES
+from texvent_scenes.models.protocol import ModelPart, Pose
+from texvent_scenes.rendered_scene import Ground
+from texvent_scenes.staging.actors import Actor
+from texvent_scenes.staging.surroundings.lighting import DARK
+from texvent_scenes.words import list_plurals
+
+_REST = Pose(0.0, 0.0, 0.0, "stand")
+_BASIC = ("black", "dark grey", "grey", "white", "red", "orange", "yellow", "green", "blue",
+          "purple", "pink", "brown", "beige")  # fmt: skip
+_MUCH, _MOST_COLOURS = 0.25, 2
+"""Share of a surface from which on a colour is named; most that are."""
+_LEAST_SHARE, _MOST_SCENERY = 0.004, 4
+"""Share of the image of a piece of scenery that is named; most nouns that are."""
+_STAYS, _STIRS, _TURNS, _HALF = 0.05, 0.01, math.radians(4.0), 0.6
+"""Way of a body that stays, in its sizes and m; way of a part that moves, in those; turn that is
+told; share of a body, of which less is seen than of one that is hidden by half."""
+_SUPPORTED_M, _GROUND_M = 0.06, 0.12
+"""Gap to what bears a body, and height above the ground of what stands on it, m."""
+_CAMERA_M, _ZOOM = 0.03, 1.04
+"""Way and ratio of focal lengths of a camera that are told."""
+_IDLE = ("move", "stand")
+"""Activities without a word of their own: the way tells them."""
+_PARTS, _THIRD, _WIDE = ("at its left", "in its middle", "at its right"), 1.0 / 6.0, 0.25
+"""Parts of the picture; half the width of its middle one, in widths of the picture; share of the
+picture from which on a body is in no part alone."""
+_SIDES = ("from behind", "from the side", "from the front")
+
+
+def caption(staged: StagedClip, views: Mapping[int, View]) -> tuple[str, ...]:
+    """Lines on the place, on each object and on the camera.
+
+    Args:
+        staged: the clip.
+        views: instance id → the most that is seen of it.
+    """
+    bodies = [line for index in range(len(staged.description.objects))
+              if (line := _tell_object(staged, index, views))]  # fmt: skip
+    return (_tell_place(staged), *bodies, _tell_camera(staged))
+
+
+def _tell_place(staged: StagedClip) -> str:
+    """Place, light, weather, effects, scenery in view and share of the sky."""
+    scene, said = staged.scene, staged.description
+    is_named = PLACES.get(str(said.place.name)) is scene.place
+    name = said.place.name if is_named else scene.place.names[0]
+    kind = said.light.kind
+    usual = "indoors" if scene.place.is_room else "by day"
+    facts = [f"{name} {_LIGHTS.get(kind, f'by {kind}') if kind else usual}"]
+    weather = {said.place.weather, *scene.particles.kinds} - {None, "clear"}
+    facts += sorted(str(one) for one in weather)
+    facts += ["clouds"] if said.place.clouds and kind not in DARK else []
+    facts += ["wet ground"] if scene.environment(0.0).wetness else []
+    if seen := _list_scenery(staged):
+        facts.append(f"with {_join(seen)}")
+    if not scene.place.is_room and scene.place.ground is not Ground.UNDERWATER:
+        times = staged.times[:: len(staged.times) // 2]
+        share = max(share_of_sky(scene, one, scene.camera(one)) for one in times)
+        facts.append(f"sky in {share:.0%} of the picture" if share >= 0.01 else "no sky in view")
+    if scene.flicker_hz is not None:
+        facts.append(f"light that changes at {scene.flicker_hz:.3g} Hz")
+    return ", ".join(facts)
+
+
+_LIGHTS = {"night": "at night", "dusk": "at dusk", "dawn": "at dawn", "sunny": "in the sun",
+           "overcast": "under an overcast sky", "stormy": "under dark clouds",
+           "morning": "in the morning", "afternoon": "in the afternoon",
+           "lamp": "by the light of a lamp"}  # fmt: skip
+"""Light → its words, if they are not "by" and its name."""
+
+
+def _list_scenery(staged: StagedClip) -> list[str]:
+    """Nouns of scenery in view, those that take most of the picture."""
+    shares = dict[str, float]()
+    for one in staged.scene.scenery:
+        seen = max(one.share_of(staged.scene.camera(time_s)) for time_s in staged.times[::4])
+        noun = _plain(one.rule.noun)
+        shares[noun] = shares.get(noun, 0.0) + seen * (seen >= _LEAST_SHARE)
+    most = sorted((one for one in shares if shares[one]), key=lambda one: -shares[one])
+    return [list_plurals(one)[0] for one in most[:_MOST_SCENERY]]
+
+
+def _plain(noun: str) -> str:
+    """Noun of a variant: "goose" of "flying goose"."""
+    return VARIANTS.get(noun, noun)
+
+
+def _tell_object(staged: StagedClip, index: int, views: Mapping[int, View]) -> str:
+    """An object: number, colours, acts, way, place and visibility of its copies in view."""
+    own = [one for one in staged.scene.actors if one.object_index == index]
+    seen = [one for one in own if views[one.instance].pixels]
+    noun = _plain(staged.description.objects[index].noun)
+    if not own:
+        held = {name for one in staged.scene.actors for prop in one.props for name in prop.nouns}
+        return "" if noun in held else f"{noun}: no body of its own"
+    if not seen:
+        return f"{noun}: never in view"
+    first = max(seen, key=lambda one: views[one.instance].pixels)
+    body = staged.boxes[index][own.index(first)]
+    count = f"{len(seen)} {list_plurals(noun)[0]}" if len(seen) > 1 else noun
+    who = " and ".join(_list_colours([part for one in seen for part in one.own_parts(_REST)]))
+    facts = [_tell_acts(staged, first, body), _tell_place_of(staged, first, body)]
+    facts += [_tell_side(staged, first, body), _tell_props(first)]
+    facts += [_tell_visibility(staged, body, views[first.instance])]
+    which = ", the largest" if len(seen) > 1 else ""
+    return f"{count} ({who}){which}: {'; '.join(filter(None, facts))}"
+
+
+def _list_colours(parts: Sequence[ModelPart]) -> list[str]:
+    """Names of the colours of most of a surface, the usual one first."""
+    basic = np.cbrt([find_colour(name, SURFACES) for name in _BASIC])
+
+    def is_called(name: str, part: ModelPart) -> bool:
+        return _BASIC[int(np.argmin(np.linalg.norm(basic - np.cbrt(part.colour), axis=1)))] == name
+
+    shares = {name: share_of(parts, partial(is_called, name)) for name in _BASIC}
+    ranked = sorted(shares, key=lambda one: (-shares[one], one))
+    return ranked[:1] + [one for one in ranked[1:_MOST_COLOURS] if shares[one] >= _MUCH]
+
+
+def _tell_acts(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
+    """Its activities in their order, and the way that it goes."""
+    states = [one.track.at(time_s).activity for time_s in staged.fine_times]
+    acts = [act for act, _ in groupby(states) if act not in _IDLE]
+    facts = [f"acts: {', then '.join(dict.fromkeys(acts))}"] if acts else []
+    way = _tell_way(staged, one, body)
+    if way == "stays" and not acts and staged.departure(one).max() > _STIRS * one.size_m:
+        way = "stays, parts of it move"
+    lit = [each for each in staged.scene.lamps.lit if each.actor.instance == one.instance]
+    facts += ["its light blinks"] if any(each.flashes for each in lit) else []
+    return ", ".join((*facts, way))
+
+
+def _tell_way(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
+    """Ways to a side, to the camera and up; turns of who stays."""
+    middle = np.asarray([one.middle(time_s) for time_s in staged.times])
+    path = float(np.linalg.norm(np.diff(middle, axis=0), axis=1).sum())
+    if path <= max(_STAYS * one.size_m, 0.5 * _STAYS):
+        turned = np.unwrap([one.track.at(time_s).yaw for time_s in staged.fine_times])
+        angle = float(np.ptp(turned))
+        return f"turns by {math.degrees(angle):.0f}°" if angle >= _TURNS else "stays"
+    right, down, away = body.displacement
+    ways = [(abs(right), f"{abs(right):.2g} m to the {'right' if right > 0 else 'left'}"),
+            (abs(away), f"{abs(away):.2g} m {'away from' if away > 0 else 'towards'} the camera"),
+            (abs(down), f"{abs(down):.2g} m {'down' if down > 0 else 'up'}")]  # fmt: skip
+    least = 0.3 * max(length for length, _ in ways)
+    told = [words for length, words in ways if length >= max(least, 0.5 * _STAYS)]
+    speed = path / max(staged.duration_s, 1e-9)
+    net = float(np.linalg.norm(middle[-1] - middle[0]))
+    around = [] if net >= 0.3 * path else [f"along a way of {path:.2g} m that turns back"]
+    return f"goes {_join(around or told)} at {speed:.2g} m/s"
+
+
+def _tell_place_of(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
+    """Support of it at the middle of the clip, or its height above the ground."""
+    at = len(staged.times) // 2
+    if one.track.anchor is not None:
+        carriers = [other for other in staged.scene.actors
+                    if other.track is one.track.anchor.carrier]  # fmt: skip
+        if carriers:
+            return f"carried by the {_plain(carriers[0].noun.name)}"
+    low = body.middle[at] - 0.5 * body.size[at]
+    for index, copies in enumerate(staged.boxes):
+        for other in copies:
+            if index != one.object_index and _bears(other, body, at):
+                return f"on the {_plain(staged.description.objects[index].noun)}"
+    place = staged.scene.place
+    if place.ground in (Ground.NONE, Ground.UNDERWATER):
+        return ""
+    is_wet = place.has_surface and wet_share(staged.scene, body.middle[at][None, :2]) > 0.0
+    ground = "water" if is_wet else "floor" if place.is_room else "ground"
+    if low[2] > _GROUND_M:
+        return f"{low[2]:.2g} m above the {ground}"
+    return f"{'in' if is_wet and low[2] < -_GROUND_M else 'on'} the {ground}"
+
+
+def _bears(other: BodyBoxes, body: BodyBoxes, at: int) -> bool:
+    """Whether a shape of one body is right under another."""
+    low = body.middle[at] - 0.5 * body.size[at]
+    parts = other.parts + (other.middle[at] - other.middle[0])
+    tops, middle = parts[:, 1, 2], body.middle[at][:2]
+    is_under = ((parts[:, 0, :2] <= middle) & (middle <= parts[:, 1, :2])).all(axis=1)
+    return bool((is_under & (np.abs(tops - low[2]) <= _SUPPORTED_M)).any()) and low[2] > _GROUND_M
+
+
+def _tell_side(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
+    """Side of a body with a heading that the camera sees at first."""
+    if not one.noun.speed_m_s or is_ball(one):
+        return ""
+    sight = (body.middle - np.array([staged.scene.camera(t).position for t in staged.times]))[0, :2]
+    cosine = float(-sight @ body.ahead[0]) / max(float(np.linalg.norm(sight)), 1e-9)
+    return f"seen {_SIDES[int(np.digitize(cosine, (-0.7, 0.7)))]}"
+
+
+def _tell_props(one: Actor) -> str:
+    """Things in its hands."""
+    props = [prop.nouns[0] for prop in one.props if prop.nouns]
+    return f"with a {_join(props)}" if props else ""
+
+
+def _tell_visibility(staged: StagedClip, body: BodyBoxes, view: View) -> str:
+    """Share of the picture, and how long and how much of it is seen."""
+    share = view.pixels / (staged.size.width * staged.size.height)
+    right = float(body.seen[len(body.seen) // 2, 0]) * staged.scene.camera(staged.times[0]).focal
+    part = _PARTS[int(np.digitize(right, (-_THIRD, _THIRD)))]
+    facts = [
+        f"{share:.1%} of the picture, {part}" if share < 0.1 else f"{share:.0%} of the picture"
+    ]
+    if view.share < _HALF:
+        facts.append(f"{1.0 - view.share:.0%} of it hidden")
+    seen = np.mean(np.array(view.at) > 0)
+    if seen < 0.9:
+        facts.append(f"in view for {seen:.0%} of the clip")
+    return ", ".join(facts)
+
+
+def _tell_camera(staged: StagedClip) -> str:
+    """Height, direction of sight, ways and turns of the camera."""
+    cameras = [staged.scene.camera(time_s) for time_s in staged.times]
+    first, last = cameras[0], cameras[-1]
+    pitch = math.degrees(math.asin(float(np.clip(first.rotation[2][2], -1.0, 1.0))))
+    has_ground = staged.scene.place.ground not in (Ground.NONE, Ground.UNDERWATER)
+    facts = [f"{first.position[2]:.2g} m above the ground"] if has_ground else []
+    level = "level" if abs(pitch) < 3.0 else f"{abs(pitch):.0f}° {'up' if pitch > 0 else 'down'}"
+    facts += [f"looks {level}"]
+    moves = [*_list_camera_moves(cameras), *_list_zooms(first, last)]
+    return f"camera: {', '.join(facts)}, {_join(moves) if moves else 'stays'}"
+
+
+def _list_camera_moves(cameras: Sequence[PosedCamera]) -> Iterator[str]:
+    """Ways along the axes of its first pose, and turns about them."""
+    first, last = cameras[0], cameras[-1]
+    way = first.rotation @ (last.position - first.position)
+    names = (("left", "right"), ("up", "down"), ("backward", "forward"))
+    for length, (less, more) in zip(way, names, strict=True):
+        if abs(length) >= max(_CAMERA_M, 0.2 * float(np.abs(way).max())):
+            yield f"goes {abs(length):.2g} m {more if length > 0 else less}"
+    ahead = np.array([one.rotation[2] for one in cameras])
+    yaw = np.unwrap(np.arctan2(ahead[:, 1], ahead[:, 0]))
+    pitch = np.arcsin(np.clip(ahead[:, 2], -1.0, 1.0))
+    for angles, (less, more) in ((yaw, ("right", "left")), (pitch, ("down", "up"))):
+        turn, range_rad = float(angles[-1] - angles[0]), float(np.ptp(angles))
+        if abs(turn) >= _TURNS:
+            yield f"turns {abs(math.degrees(turn)):.0f}° {more if turn > 0 else less}"
+        elif range_rad >= 0.25 * _TURNS:
+            yield f"sways by {math.degrees(range_rad):.1f}°"
+
+
+def _list_zooms(first: PosedCamera, last: PosedCamera) -> Iterator[str]:
+    ratio = last.focal / first.focal
+    if max(ratio, 1.0 / ratio) >= _ZOOM:
+        yield f"zooms {'in' if ratio > 1.0 else 'out'} {max(ratio, 1.0 / ratio):.2g} times"
+
+
+def _join(words: Sequence[str]) -> str:
+    """Words with commas, and "and" before the last."""
+    *most, last = words
+    return f"{', '.join(most)} and {last}" if most else last
