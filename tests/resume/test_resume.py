@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 from tests.cli.running import run
@@ -31,6 +32,32 @@ def other_times() -> None:
     Path("times.txt").write_text("".join(f"{t / 100}\n" for t in (0, 1, 2, 4)))
 
 
+def write_folders() -> None:
+    for name in "ab":
+        place = Path("clips", name)
+        place.mkdir(parents=True)
+        for number in range(4):
+            cv2.imwrite(str(place / f"{number}.png"), _picture(number))
+    Path("clips/b/timestamps.txt").write_text("0\n0.01\n0.02\n0.03\n")
+    Path("folders.toml").write_text(FOLDERS)
+
+
+def _picture(seed: int) -> np.ndarray:
+    return np.random.default_rng(seed).integers(0, 255, (12, 16), dtype=np.uint8)
+
+
+TIMES = "0\n0.01\n0.02\n0.04\n"
+OF_FOLDERS: dict[str, Callable[[], None]] = {
+    "image": lambda: cv2.imwrite("clips/a/1.png", _picture(9)) and None,
+    "one more": lambda: cv2.imwrite("clips/a/4.png", _picture(9)) and None,
+    "one less": Path("clips/a/3.png").unlink,
+    "times": lambda: Path("clips/a/timestamps.txt").write_text(TIMES) and None,
+    "times beside": lambda: Path("clips/timestamps.txt").write_text(TIMES) and None,
+    "no times": Path("clips/b/timestamps.txt").unlink,
+}
+"""Changes of folders of images, of which one had no times and the other had some."""
+
+
 FLAT = ("--interpolate", "none", "--simulator", "esim")
 DRAFT = ("--samples", 1, *FLAT)
 VIDEOS = (
@@ -54,6 +81,11 @@ filters = { min_events = 1 }
 options = { interpolate = "none", timestamps = "times.txt" }
 sources = [{ videos = ["clips/*.npy"] }]
 variants = { paper = { seeds = 2 }, esim = { simulator = "esim" } }
+"""
+FOLDERS = """
+name = "folders"
+options = { interpolate = "none", simulator = "esim", fps = 100 }
+sources = [{ videos = ["clips/a", "clips/b"] }]
 """
 MAKE = ("dataset", "make", "tiny.toml", "-o", "out", "--workers", 1, "-q")
 
@@ -124,6 +156,12 @@ RESUMABLE = {
             "seed": lambda: (*VIDEOS, "--seed", 5),
         },
     ),
+    "batch of folders": Resumable(
+        prepare=write_folders,
+        words=("batch", "clips/a", "clips/b", "-o", "out", "--fps", 100, "--format", "atis", *FLAT),
+        index=("samples.jsonl", "batch.json"),
+        changes=OF_FOLDERS,
+    ),
     "batch of prompts": Resumable(
         prepare=other_prompts("a red car drives left,car\n"),
         words=PROMPTS,
@@ -143,6 +181,13 @@ RESUMABLE = {
             "option": other_specification("min_events = 1", "min_events = 2"),
             "seed": other_specification("samples_per", "seed = 4\nsamples_per"),
         },
+        checks=("dataset", "verify", "out"),
+    ),
+    "dataset make of folders": Resumable(
+        prepare=write_folders,
+        words=("dataset", "make", "folders.toml", "-o", "out", "--workers", 1, "-q"),
+        index=("specification.json", "items.jsonl", "*/*.json"),
+        changes=OF_FOLDERS,
         checks=("dataset", "verify", "out"),
     ),
     "dataset make with videos": Resumable(

@@ -7,7 +7,7 @@ import pytest
 from tests.scenes.staged import DURATION_S, SIZE, stage, thing
 from tests.scenes.test_short_prompts import staged
 
-from texvent.camera import project
+from texvent.camera import PosedCamera, project
 from texvent_scenes.checks.limbs import find_tiny
 from texvent_scenes.checks.shots import find_misframed
 from texvent_scenes.description import SceneDescription
@@ -16,6 +16,10 @@ from texvent_scenes.staging.camera.camera_track import CameraTrack
 from texvent_scenes.staging.camera.framing import pose
 
 TIMES = [float(one) for one in np.linspace(0.0, DURATION_S, 7)]
+
+
+FACING = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
+"""Axes of a camera that looks along y: right, down and forward."""
 
 
 def faults(scene, said):
@@ -52,6 +56,23 @@ def test_a_move_holds_if_the_camera_moves(kind):
     still = stage(thing("man", ("stand",)), camera=Camera(moves=(CameraMove("static"),)))
     assert faults(still, said) == [kind]
     assert faults(stage(thing("man", ("walk", "right")), camera=said), said) == []
+
+
+@pytest.mark.parametrize("share", [0.9, 1.1])
+@pytest.mark.parametrize("way", [(1, 0), (-1, 0), (0, 1), (0, -1)])
+def test_who_is_followed_is_in_the_image_up_to_each_of_its_sides(way, share):
+    scene = stage(thing("man", ("walk", "right")))
+    half = 0.5 * share * np.array([SIZE.width, SIZE.height]) / SIZE.width
+    cameras = []
+    for time_s in TIMES:
+        middle = scene.actors[0].middle(time_s)
+        right, down = half * way * 4.0
+        cameras.append(PosedCamera(middle - [right, 4.0, -down], FACING, 1.0))
+    description = SceneDescription(
+        objects=(thing("man"),), camera=Camera(moves=(CameraMove("follow"),))
+    )
+    found = [one.line for one in find_misframed(scene, description, cameras, TIMES, SIZE)]
+    assert bool(found) == (share > 1.0), found
 
 
 @pytest.mark.parametrize(

@@ -135,6 +135,18 @@ def test_the_light_of_a_lamp_in_the_image_does_not_depend_on_its_size_and_place(
     assert glow_energy((x, 0.0, 1.0), 1e-4, radius) == pytest.approx(expected, rel=0.02)
 
 
+@pytest.mark.parametrize("x", [0.0, 0.4, -0.9])
+@pytest.mark.parametrize("fog_m", [2.0, 0.5])
+def test_fog_takes_from_a_glow_what_it_takes_along_the_way(x, fog_m):
+    lamp = lamp_row((x, 0.0, 1.0), (1e-3,) * 3, glows=True)
+    camera, light = look_at((0.0, -2.0, 1.0), (0.0, 0.0, 1.0)), []
+    for distance_m in (np.inf, fog_m):
+        scene = scene_of(replace(dark(lamp, ground=Ground.NONE), fog_distance=distance_m))
+        glows = world_at(replace(scene, camera_at=lambda time: camera), 0.0, SMALL).glows
+        light.append(float(glows["core_light"].sum()))
+    assert light[1] / light[0] == pytest.approx(np.exp(-np.hypot(2.0, x) / fog_m))
+
+
 def test_what_stands_before_a_lamp_hides_its_glow_bit_by_bit():
     lamp = lamp_row((0.0, 0.0, 1.0), (1e-3,) * 3, radius=0.05, glows=True)
 

@@ -141,6 +141,26 @@ def test_lamps_are_modulated_at_their_frequency(wave, levels):
         np.testing.assert_allclose(lamps["light"][1], 1.0)
 
 
+BEATS = {(lamp.wave, lamp.blink_hz, lamp.turns_hz): (noun, lamp.wave, lamp.turns_hz > 0)
+         for noun, lamps in [*LAMPS.items()][::-1] for lamp in lamps
+         if lamp.blink_hz or lamp.turns_hz}  # fmt: skip
+
+
+@for_every(sorted(BEATS.values()))
+def test_the_flicker_of_a_scene_is_the_fastest_beat_of_its_lamps(row):
+    """Over 32 of its periods it is the highest line in the spectrum, but for harmonics."""
+    noun, wave, turns = row
+    scene = stage(thing(noun), light="night")
+    times = np.arange(512) / 512 * 32 / (scene.flicker_hz or 1.0)
+    lamps = np.stack([scene.environment(one).lamps for one in times])
+    signal = lamps["beam"][..., 0] if turns else lamps["light"].sum(-1)
+    power = abs(np.fft.rfft((signal - signal.mean(0)) * np.hanning(512)[:, None], axis=0))
+    lines = np.flatnonzero(power.max(1, initial=0.0) > 0.2 * power.max(initial=1e-6))
+    assert (scene.flicker_hz is None) == (not len(lines))
+    if len(lines):
+        assert abs((lines.max() if wave == "flame" else lines.min()) - 32) <= 1
+
+
 @pytest.mark.parametrize("colour", ["white", "grey", "black", "red", "yellow"])
 def test_edges_stand_out_from_a_backdrop_that_nobody_asked_for(colour):
     bar = SceneObject("bar", colour=colour)

@@ -79,6 +79,24 @@ def test_shot_noise_comes_at_its_rate_mostly_off_and_more_in_the_dark():
     assert dark.p.mean() == pytest.approx(0.42, abs=0.02)
 
 
+@pytest.mark.parametrize("mismatch", [0.0, 0.08])
+def test_a_pixel_at_rest_is_anywhere_between_its_thresholds(mismatch):
+    """At rest none fires; along a ramp each fires once per threshold, wherever it began."""
+    model, size = PixelModel(threshold_sigma=mismatch, has_random_phase=True), SensorSize(40, 40)
+    assert not len(expose_levels(model, [0.0] * 3, size=size))
+    array = PixelArray(model, size, 0)
+    for way, thresholds in ((1.0, array._on), (-1.0, array._off)):
+        little = expose_levels(model, [0.0, 0.1 * way], size=size)
+        share = np.mean(0.1 / (array._on + array._off))
+        # Those with thresholds below .1 fire twice at times.
+        assert len(little) / 1600 == pytest.approx(share, rel=0.15)
+        long = expose_levels(model, [0.0, 4.0 * way], size=size)
+        per_pixel = np.bincount(long.y.astype(int) * 40 + long.x, minlength=1600)
+        least = 4.0 / thresholds - (array._off if way > 0 else array._on) / thresholds - 1
+        assert (per_pixel >= np.floor(least)).all()
+        assert (per_pixel <= np.ceil(4.0 / thresholds) + 1).all()
+
+
 def test_two_recordings_share_the_sensor_but_not_the_noise():
     scene = oracle_scene("static", 7)
     # Six steps of exposure are enough to tell the seeds apart.

@@ -97,6 +97,15 @@ def test_few_of_each_class_are_drawn_by_the_seed(tmp_path):
     assert numbers[0] == numbers[1] != numbers[2]
 
 
+def test_of_equal_sources_each_draws_its_own(tmp_path):
+    write_recordings(tmp_path / "rec", per_class=9)
+    extra = 'extra = {recordings = "rec", per_class = 3}'
+    path = write(tmp_path / "spec.toml", f"{RECORDED}, per_class = 3", extra)
+    chosen = open_training(config(path), open_validation(config(path)))
+    drawn = {tuple(chosen.number[chosen.source == source]) for source in range(2)}
+    assert len(drawn) == 2
+
+
 def test_only_the_first_classes_are_told_apart(tmp_path):
     write_recordings(tmp_path / "rec")
     for split in ("train", "val"):
