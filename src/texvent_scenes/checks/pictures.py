@@ -35,11 +35,15 @@ _SIZE, _LEAST_LEVELS, _WHITE, _LEAST_SHARE = SensorSize(120, 90), 6.0, 30.0, 0.0
 """Size of small pictures; difference of a pixel, of 255, that is seen, and that makes snow white;
 share of those that are."""
 _SEEN = {"has_snow": (_WHITE, _LEAST_SHARE), "clouds": (_LEAST_LEVELS, 0.02),
-         "is_wet": (20.0, 0.03)}  # fmt: skip
+         "is_wet": (20.0, 0.03), "weather_amount": (12.0, 0.01)}  # fmt: skip
 """Kind → least difference and share that show it, if others than usual: of clouds no panes that
-mirror them, of a wet ground more than a faint sheen."""
+mirror them, of a wet ground more than a faint sheen, of heavy snow as much as makes it so."""
 _SOFT = ((25.0, 0.006), (50.0, 0.002))
 """The same of what is soft, as dust, of which a faint trace shows nothing: one is enough."""
+_GLEAM = (20.0, 0.004)
+"""Difference and share of pixels that are brighter by what a wet ground mirrors in the dark."""
+_DARK = ("night", "moonlight")
+"""Light in which a wet ground is told by the lamps that it mirrors: dark it is anyway."""
 _EMITTERS = {kind: one.emitters for kind, one in EFFECTS.items()}
 _LEAST_SCENERY, _LEAST_TELLING, _STIRS = 0.02, 0.006, 0.0004
 """Least shares of a small picture that the scenery of a place changes, furniture of which half at
@@ -99,6 +103,12 @@ class SmallPictures:
         rest = SmallPictures(other, self.times)
         return any(_differ(self.at(one), rest.at(one), least, levels) for one in self.times)
 
+    def gleam(self, other: RenderedScene) -> bool:
+        """Whether enough pixels are brighter than in another scene, at one of the instants."""
+        rest = SmallPictures(other, self.times)
+        gains = ((self.at(one) - rest.at(one)).max(axis=-1) for one in self.times)
+        return any(np.mean(one >= _GLEAM[0]) >= _GLEAM[1] for one in gains)
+
     def change(self) -> bool:
         """Whether enough pixels are others a moment after one of the instants."""
         return any(_differ(self.at(one), self.at(one + later_s))
@@ -127,7 +137,10 @@ def find_unshown(
     for name, value, other in _list_without(scene, description):
         is_soft = any(one.body == "medium" for one in _EMITTERS.get(str(value), ()))
         bounds = _SOFT if is_soft else (_SEEN.get(name, (_LEAST_LEVELS, _LEAST_SHARE)),)
-        if not any(drawn.differ(other, least=least, levels=levels) for levels, least in bounds):
+        is_told = any(drawn.differ(other, least=least, levels=levels) for levels, least in bounds)
+        if name == "is_wet" and description.light.kind in _DARK:
+            is_told = drawn.gleam(other)
+        if not is_told:
             is_kind = name in ("light", "weather", "effect")
             line = name.split("_")[-1] if value is True else f"{name} {value}"
             line = f"{line.replace('_', ' ')}: no pixel shows it"
@@ -137,7 +150,7 @@ def find_unshown(
     for one in description.objects:
         if one.is_lit and one.noun not in LAMPS:
             yield Violation("is_lit", "", f"lights of the {one.noun}")
-    if said.weather == "fog" or description.light.kind in ("night", "moonlight"):
+    if said.weather == "fog" or description.light.kind in _DARK:
         yield from _find_veiled(scene, description, drawn)
     yield from _find_rest(scene, description, drawn)
     yield from _find_unturned(scene, description, times)
@@ -271,6 +284,13 @@ def _list_without(
         is_so |= name == "is_wet" and (said.weather == "rain" or not value)
         if value != usual and value not in FALLING and not is_so:
             yield name, value, without(place=replace(said, **{name: usual}))
+    if said.weather_amount > Place.weather_amount:
+        usual = without(place=replace(said, weather_amount=Place.weather_amount))
+        pairs = [*zip(staged.effects, staged.kinds, strict=True)]
+        fewer = tuple(one.thinned(said.weather_amount) if own == said.weather else one
+                      for one, own in pairs)  # fmt: skip
+        yield "weather_amount", said.weather_amount, replace(
+            usual, particles=replace(staged, effects=fewer))  # fmt: skip
     if description.light.kind not in (None, "day"):
         yield "light", description.light.kind, without(light=replace(description.light, kind=None))
     for kind in dict.fromkeys((said.weather, *(one.kind for one in description.effects))):

@@ -94,7 +94,10 @@ def say_parts(draft: SceneDraft, groups: Sequence[Group], subjects: Indices) -> 
 
 
 def _say_of_part(draft: SceneDraft, word: Token, part: str, owners: Indices) -> None:
-    """Account for a word about a part; whether it moves, shines or has a colour is to be seen."""
+    """Account for a word about a part; whether it moves, shines or has a colour is to be seen.
+
+    Lamps that do not blink are steady, whatever is said of them: "headlights approaching".
+    """
     is_lamp = part in word_set("things", "lamps")
     fields = dict(one.value for one in word.all("field"))
     if word.has("verb") and not word.has("noun", "field"):
@@ -102,13 +105,14 @@ def _say_of_part(draft: SceneDraft, word: Token, part: str, owners: Indices) -> 
         blinks = is_lamp and any(one.kind == "blink" for one in acts)
         if part in word_set("things", "stiff_parts") and not blinks:
             return
-        draft.claim(word, "blink" if is_lamp else "parts", "", owners)
+        kind = "blink" if blinks else "shine" if is_lamp else "parts"
+        draft.claim(word, kind, "", owners)
         for one in (draft.things[n] for n in owners if part in word_set("things", "bare_parts")):
             is_flyer = draft.nouns[one["noun"]].motion == "fly"
             one["motions"] = one["motions"] or [{"kind": "hover"}] * is_flyer  # "its rotor turning"
         for one in (draft.things[n] for n in owners if is_lamp):
             if not any(lamp.own_hz for lamp in LAMPS.get(one["noun"], ())):
-                one |= {"is_lit": True, "blink_hz": BLINK_HZ}
+                one |= {"is_lit": True, **({"blink_hz": BLINK_HZ} if blinks else {})}
                 goes = [{"kind": "move", "direction": "towards"}]
                 can_go = draft.nouns[one["noun"]].speed_m_s > 0.0
                 one["motions"] = one["motions"] or (goes if can_go else [])

@@ -127,9 +127,9 @@ def _find_whole(draft: SceneDraft, group: Group) -> Group | None:
 
 
 def _light_own(draft: SceneDraft, group: Group) -> None:
-    """Switch the lamps of the last thing that has some: "its headlights are on"."""
+    """Switch the lamps of the last thing that has some: "its headlights are on", "lights off"."""
     lamps = draft.find(LAMPS)[-1:]
-    is_owned = lamps and group.article in word_set("things", "owners")
+    is_owned = lamps and group.article in {*word_set("things", "owners"), ""}
     for token in group.unknown if is_owned else ():
         if token.says("field", "is_lit"):
             say_word(draft, token, lamps)

@@ -285,6 +285,8 @@ class Place:
     """Colour of the sky."""
     weather: Literal["fog", "haze", "rain", "snow"] | None = None
     """Weather; left out: fair."""
+    weather_amount: Annotated[float, Between(0.2, 5.0)] = 1.0
+    """Rain, snow or fog, as a multiple of the usual amount."""
     clouds: Annotated[float, Between(0.0, 1.0)] | None = None
     """Cloud cover, 0 (clear) to 1 (covered)."""
     backdrops: tuple[Literal["mountain", "forest", "city"], ...] = ()

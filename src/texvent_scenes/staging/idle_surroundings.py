@@ -10,7 +10,7 @@ from texvent.errors import few, shown
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.places import PLACES, PlaceModel
 from texvent_scenes.rendered_scene import Ground
-from texvent_scenes.spec.scene import Scene, SceneObject
+from texvent_scenes.spec.scene import Place, Scene, SceneObject
 
 MOST_NAMED = 6
 """Most words that an error names."""
@@ -69,6 +69,8 @@ def idle_place(scene: Scene, name: str) -> Iterator[Idle]:
                    f"these have: {known}")  # fmt: skip
     if said.is_lit and scene.light.kind not in ("night", "moonlight"):
         yield Idle("place.is_lit", "it says so of a room at night or by moonlight", is_usual=True)
+    if said.weather_amount != Place.weather_amount and said.weather is None:
+        yield Idle("place.weather_amount", "it is that of a weather; give weather")
     if said.is_wet and said.weather == "rain" and PLACES[name].ground in _WETTED:
         yield Idle("place.is_wet", "rain wets the ground anyway", is_usual=True)
     is_lane = [one.placement == "lane" and not _is_above_water(one, PLACES[name])

@@ -12,6 +12,7 @@ from texvent_scenes.checks.pictures import find_unshown
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.effects import EFFECTS
 from texvent_scenes.models.places import PLACES
+from texvent_scenes.raycast.render import render
 from texvent_scenes.spec.scene import Effect, Place
 from texvent_scenes.staging.actors import assemble
 from texvent_scenes.staging.compose import compose_scene
@@ -108,3 +109,40 @@ def test_what_stands_before_the_subject_and_takes_much_of_the_image_is_told(poin
     seen = {1: [points] * 5, 2: [points] * 5}
     told = [*list_covering(near, said, seen, 1000, FIVE_S)]
     assert told == (["the wardrobe covers 30 % of the picture"] if is_told else [])
+
+
+@pytest.mark.parametrize(
+    ("much", "usual"),
+    [("heavy snow falls on a street", "snow falls on a street"),
+     ("a horse runs in a dense fog", "a horse runs in a fog"),
+     ("cars drive on a road in pouring rain", "cars drive on a road in the rain")],
+)  # fmt: skip
+def test_heavy_weather_is_more_than_the_usual_one_in_the_picture(much, usual):
+    (said, scene), (_, other) = stage_text(much), stage_text(usual)
+    assert said.place.weather_amount >= 2.0
+    assert not {"weather", "weather_amount"} & {*lost(said, scene)}
+    flying, sight = (
+        [read(one) for one in (scene, other)]
+        for read in (lambda one: sum(len(each.lives.draws) for each in one.particles.effects),
+                     lambda one: one.animated_environment.base.fog_distance)
+    )  # fmt: skip
+    assert flying[0] >= 2.5 * flying[1]
+    assert sight[0] <= 0.5 * sight[1]
+
+
+@pytest.mark.parametrize(
+    ("text", "is_mirrored"),
+    [("a wet road at night with car headlights approaching", True),
+     ("driving on a wet highway at night past street lamps", True),
+     ("a rainy street at night with neon signs", None),
+     ("a cat on a wet pavement at night", False)],
+)  # fmt: skip
+def test_a_ground_at_night_is_wet_by_the_lamps_that_it_mirrors(text, is_mirrored):
+    said, scene = stage_text(text)
+    assert is_mirrored is None or ("is_wet" in lost(said, scene)) is not is_mirrored
+    base = scene.animated_environment.base
+    dry = replace(scene.animated_environment, base=replace(base, wetness=0.0))
+    wet, rest = (render(one, TIMES_S[0], SIZE, samples=1, shadows=False).astype(float)
+                 for one in (scene, replace(scene, animated_environment=dry)))  # fmt: skip
+    gains = (wet - rest).max(axis=-1) >= 20.0
+    assert is_mirrored is False or gains.mean() >= 0.002

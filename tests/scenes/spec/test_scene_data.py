@@ -212,6 +212,7 @@ def test_a_file_by_hand_gives_every_field():
     assert fields - given == {  # not with a target, travel and a road
         (Camera, "position_m"), (Camera, "look_at_m"), (Camera, "framing"), (Place, "wave_height"),
         (Place, "road_m"), (Place, "road_heading_deg"), (Place, "is_lit"),
+        (Place, "weather_amount"),
     }  # fmt: skip
     SCHEMA.validate(tomllib.loads(EVERY_FIELD.read_text()))
     described = describe_scene(scene, list_nouns())

@@ -291,6 +291,8 @@ SAID = [
      r"^objects\[0\]\.motions\[0\]\.kind has no effect: "),
     ({"place": Place("road", weather="rain", is_wet=True)}, None),
     ({"place": Place("road", weather="rain", is_wet=False)}, "rain wets the ground; leave"),
+    ({"place": Place("grass", weather_amount=3.0)}, "it is that of a weather"),
+    ({"place": Place("grass", weather="snow", weather_amount=3.0)}, None),
     ({"place": Place("grass", is_wet=False)}, None),
     ({"place": Place("grass", is_wet=True)}, "has not a road or a paved ground"),
     ({"objects": (SceneObject("box", is_lit=False),)}, None),

@@ -10,6 +10,7 @@ import math
 
 from texvent.runtime.jit import jit
 from texvent_scenes.raycast.addresses import shape_at
+from texvent_scenes.raycast.lamps.gleam import lamp_gleam
 from texvent_scenes.raycast.lamps.light import lamp_light, lamps_reach
 from texvent_scenes.raycast.meshes.hit import hit_mesh
 from texvent_scenes.raycast.records import Record
@@ -289,7 +290,11 @@ def _ground_light(
         light = _reflected(instant, colour, point, normal, footprint[2], lit)
         wet, rough = glossy_share(instant, point, footprint[2])
         if wet > 0.0:
-            light = _wetted(instant, light, point, unit(direction), (wet, rough, footprint[2]))
+            view = unit(direction)
+            light = _wetted(instant, light, point, view, (wet, rough, footprint[2]))
+            if instant.wetness > 0.0:
+                film = _WATER_GLOSS, rough, 0.5 * instant.step
+                light = along(light, lamp_gleam(instant, point, view, up, film, lit), wet)
     if instant.ground == _UNDERWATER:
         return light
     return mix(light, triple(instant.sky_horizon), smooth((depth - 150.0) / 1500.0))

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
-from itertools import product, repeat
+from itertools import chain, product, repeat
 from types import MappingProxyType
 from typing import Any, TypeAlias
 
@@ -264,6 +264,25 @@ def _list_words() -> Iterator[tuple[str, Sense]]:
         yield from zip(phrases, repeat(_sense_of(*path)))
     for row in word_table("acting"):
         yield from zip(_list_acting(row), repeat(_sense_of(*row["sense"])))
+    yield from _list_amounts()
+
+
+def _list_amounts() -> Iterator[tuple[str, Sense]]:
+    """Phrases of weather with how much of it there is: "heavy snow", "it rains heavily"."""
+    said = word_table("senses")["scene"]["place"]["weather"]
+    for weather, amounts in word_table("amounts").items():
+        whole = _sense_of("scene", "place", "weather", weather)
+        acting = [row for row in word_table("acting") if row["sense"][-1] == weather]
+        phrases = {one for each in said[weather] for one in expand(each)}
+        phrases |= {one for row in acting for one in _list_acting(row)}
+        told = {words.split()[0] for words in phrases} & {*chain(*amounts.values())}
+        phrases |= {noun for row in acting for noun in row["nouns"]}
+        bare = sorted(one for one in phrases if one.split()[0] not in told)
+        for amount, words in amounts.items():
+            share = _sense_of("scene", "place", "weather_amount", amount)
+            for word, phrase in product(words, bare):
+                text = f"{phrase} {word}" if word.endswith("ly") else f"{word} {phrase}"
+                yield from ((text, sense) for sense in (whole, share))
 
 
 def _list_acting(row: Mapping[str, Any]) -> Iterator[str]:

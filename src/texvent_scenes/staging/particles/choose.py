@@ -46,7 +46,7 @@ def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
 
     An effect whose object has several copies is at each of them.
     """
-    weather = description.place.weather
+    weather, amount = description.place.weather, description.place.weather_amount
     said = [Effect(weather)] if weather in FALLING else []
     said += description.effects
     named = {(effect.kind, effect.source) for effect in said}
@@ -67,7 +67,8 @@ def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
             start_s = effect.start_s
             if start_s is None and effect.phase:
                 start_s = setting.duration_s * effect.phase / phases
-            effects += _make(replace(effect, start_s=start_s), actor, setting, rng)
+            own = amount if effect.kind == weather else 1.0
+            effects += _make(replace(effect, start_s=start_s), actor, setting, rng, own)
             kinds += [effect.kind] * (len(effects) - len(kinds))
     for actor in setting.actors:
         kind = trait_value("pieces", actor.noun.name) if actor.breaks_s is not None else None
@@ -81,18 +82,19 @@ def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
 
 
 def _make(
-    effect: Effect, actor: Actor | None, setting: Setting, rng: np.random.Generator
+    effect: Effect, actor: Actor | None, setting: Setting, rng: np.random.Generator, amount: float
 ) -> list[Emitter]:
-    """Emitters of an effect at an object, or by itself."""
+    """Emitters of an effect at an object, or by itself; `amount` multiplies their particles."""
     words = EFFECTS[effect.kind]
     source = _source(effect.kind, actor, setting)
+    styles = [replace(style, count=round(amount * style.count)) for style in words.emitters]
     return [
         Emitter.of(
             _glinting(_fitted(style, effect.kind, actor), effect.kind, setting), source, setting,
             rng,
             start_s=effect.start_s, volley=volley,
         )
-        for style in words.emitters
+        for style in styles
         for volley in range(max(style.salvos, 1))
     ]  # fmt: skip
 

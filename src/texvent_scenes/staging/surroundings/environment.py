@@ -193,7 +193,7 @@ def build_environment(
     lighting = choose_lighting(place, description.light, is_unlit=is_unlit)
     colour, second = _ground_colours(place, said)
     sky_top, horizon = _sky_colours(place, lighting, said)
-    fog_distance, fog_colour = _choose_fog(place, said.weather, horizon, distance_m)
+    fog_distance, fog_colour = _choose_fog(place, said, horizon, distance_m)
     is_white = said.has_snow and place.ground in _SNOWED_OVER
     is_dim, is_usual = said.weather in ("rain", "snow"), said.wave_height == Place.wave_height
     base = Environment(
@@ -278,11 +278,12 @@ def _ground_colours(place: PlaceModel, said: Place) -> tuple[Colour, Colour]:
 
 
 def _choose_fog(
-    place: PlaceModel, weather: str | None, horizon: Colour, distance_m: float
+    place: PlaceModel, said: Place, horizon: Colour, distance_m: float
 ) -> tuple[float, Colour]:
     """Sight to 37 %, m, and the colour that all fades into."""
     if place.ground is Ground.UNDERWATER:
         return max(_UNDERWATER_SIGHT_M, 3.5 * distance_m), _WATER_COLOUR
+    weather, distance_m = said.weather, distance_m / said.weather_amount
     if weather == "fog":
         grey = sum(horizon) / 3.0
         return _FOG_SIGHT * distance_m, mix(horizon, (grey, grey, grey), 0.7)
