@@ -1,4 +1,4 @@
-"""Pictures that surfaces show: files, videos, checkerboards and text, as images in linear light."""
+"""Pictures that surfaces show: files, videos, boards, tags and text, as images in linear light."""
 
 from __future__ import annotations
 
@@ -31,6 +31,8 @@ LONGEST_TEXT = 200
 """Characters of a text at most."""
 _CHECKS = re.compile(r"(\d{1,3})\s*[x×]\s*(\d{1,3})")
 MOST_CHECKS = 64
+LAST_TAG = 586
+"""Highest id of the AprilTag family 36h11."""
 
 
 def check_picture(picture: Picture) -> None:
@@ -38,10 +40,13 @@ def check_picture(picture: Picture) -> None:
 
     Raises:
         InputError: its file does not exist or is no image or video, its squares are no such as
-            "9x6", or its text is empty, too long, or has characters other than ASCII.
+            "9x6", its tag has no such id, or its text is empty, too long, or has characters other
+            than ASCII.
     """
     if picture.kind == "checkerboard":
         read_checks(picture.value)
+    elif picture.kind == "tag":
+        read_tag(picture.value)
     elif picture.kind == "text":
         _check_text(picture.value)
     else:
@@ -62,6 +67,20 @@ def read_checks(value: str) -> tuple[int, int]:
             f"{MOST_CHECKS} each, but this one has {shown(value)}"
         )
     return counts
+
+
+def read_tag(value: str) -> int:
+    """The id of an AprilTag that "7" names.
+
+    Raises:
+        InputError: the family has no such tag.
+    """
+    if not (value.strip().isdecimal() and int(value) <= LAST_TAG):
+        raise InputError(
+            f"AprilTags of the family 36h11 have ids from 0 to {LAST_TAG}, but this one has "
+            f"{shown(value)}"
+        )
+    return int(value)
 
 
 def is_video(path: Path) -> bool:
@@ -189,6 +208,8 @@ _LETTER_PX = 96
 _LINE_PX = 160
 _LONGEST_BOARD_PX = 2048
 """Longest side of the image of a checkerboard at most."""
+_TAG_BITS, _TAG_BIT_PX = 8, 64
+"""Bits of an AprilTag per side with its black border, and the side of one in its image, pixels."""
 _INK, PAPER = 0.03, 0.85
 """Reflectance of printed letters and of the paper."""
 
@@ -232,6 +253,8 @@ def _still(picture: Picture, version: tuple[float, int]) -> SurfaceImage:
     del version
     if picture.kind == "checkerboard":
         return surface_image(draw_checks(*read_checks(picture.value)))
+    if picture.kind == "tag":
+        return surface_image(draw_tag(read_tag(picture.value)))
     if picture.kind == "text":
         return surface_image(draw_text(picture.value))
     return surface_image(read_image(Path(picture.value)))
@@ -246,6 +269,13 @@ def draw_checks(columns: int, rows: int) -> NDArray[np.float32]:
     i, j = np.indices((rows, columns))
     share = np.pad((i + j + 1) % 2, 1).repeat(side, axis=0).repeat(side, axis=1)
     return _printed(share)
+
+
+def draw_tag(number: int) -> NDArray[np.float32]:
+    """[h, w, 3] linear image of an AprilTag of the family 36h11, with a margin one bit wide."""
+    tags = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_APRILTAG_36h11)
+    share = np.pad(tags.generateImageMarker(number, _TAG_BITS) == 0, 1)
+    return _printed(share.repeat(_TAG_BIT_PX, axis=0).repeat(_TAG_BIT_PX, axis=1))
 
 
 def _printed(share: NDArray[Any]) -> NDArray[np.float32]:

@@ -112,6 +112,8 @@ _LITERAL = re.compile(
     rf"|(?<=\b)(?i:(?:says?|saying|reads?|reading|the\s(?:word|text|letters))\s+)([A-Z0-9]{{2,}}(?:\s[A-Z0-9!]+)*)\b"
     r"|(?<=\b)(?i:(?:digits?|numbers?)\s+)(\d{1,12})\b"
     r"|(?<=\b)(?i:letters?\s+)([A-Za-z])\b"
+    r"|(?<=\b)(?i:(?:april\s?tag|aruco|fiducial)(?:\s(?:tag|marker))?\s+)"
+    r"(?P<said_tag>(?i:with\s+)?(?i:(?:the\s+)?id\s+)?(?P<tag>\d{1,3}))\b"
 )
 
 
@@ -127,6 +129,8 @@ def find_literals(prompt: str) -> Iterator[tuple[int, int, Picture]]:
             yield (*match.span("file"), Picture(kind="file", value=match["file"]))
         elif said := match["checks"] or match["checks_after"]:
             yield (*match.span(), Picture(kind="checkerboard", value=said))
+        elif match["tag"] is not None:
+            yield (*match.span("said_tag"), Picture(kind="tag", value=match["tag"]))
         else:
             number = next(n for n in range(4, 8) if match[n] is not None)
             begin, end = match.span(number)

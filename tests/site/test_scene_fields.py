@@ -1,10 +1,13 @@
 """The table of fields on the page of scene files has every field of every class."""
 
 import dataclasses
+import re
 import sys
 from pathlib import Path
 
 import pytest
+
+from texvent_scenes.models.places import PLACES
 
 ROOT = Path(__file__).parents[2]
 
@@ -26,3 +29,11 @@ def test_rows_have_ranges_words_and_texts(made: str) -> None:
     assert "| `frequency_hz` | number, 0.001 to 100000 | Frequency of modulation, Hz;" in made
     assert "| `weather` | fog, haze, rain, snow | Weather; left out: fair. |" in made
     assert "| `position_m` | 3 numbers | Position x, y, z, m. |" in made
+
+
+def test_the_page_has_the_width_of_a_lane_of_each_road(made: str) -> None:
+    line = made.split("(and the report): of a ")[1].splitlines()[0]
+    found = {
+        name: float(metres) for name, metres in re.findall(r"([a-z]+ ?[a-z]*) ([\d.]+) m", line)
+    }
+    assert found == {name: one.road_m for name, one in PLACES.items() if one.has_road}

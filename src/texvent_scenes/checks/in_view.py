@@ -61,6 +61,10 @@ _SMALL_AREA = 0.002
 LEAST_SEEN = 0.15
 """Share of an object's pixels that nothing stands before; of less it is hidden, and a copy of
 several too of which less is inside the image."""
+MOST_COVERED = 0.5
+"""Share of its pixels that are seen below which a note tells how much of a body is."""
+_COVERING = ("wear", "in", "ride", "under", "behind")
+"""Relations that say that something hides it."""
 LEAST_INSIDE = 0.33
 """Share of an object's extent that is inside the image; of less it is cut off."""
 _REMNANT = 0.004
@@ -126,6 +130,7 @@ def find_unseen(
     is_close = description.camera.framing == "close" and scene.actors
     close = choose_main(description, scene.actors).object_index if is_close else None
     outside, small, bodies = list[str](), list[str](), list[list[BodyBoxes]]()
+    covered = {one.subject for one in description.relations if one.kind in _COVERING}
     notes = list[str]()
     unseen, partly = {*scene.missing}, set[int]()
     for index in range(len(description.objects)):
@@ -143,6 +148,8 @@ def find_unseen(
             most = max(view.pixels for view in seen_own)
             if found.words is None and most < _SMALL_AREA * size.width * size.height:
                 notes.append(f"the {label} is small in the picture: about {most} pixels")
+            if found.words is None and index not in covered:
+                notes += _list_covered(own, label, seen_own)
             lines = small if found.is_small else outside
             lines += [f"{label}{found.words}"] if found.words is not None else []
             unseen |= {index} if found.is_unseen else set()
@@ -279,6 +286,14 @@ def _judge(
     if inside < 2 and not is_close and (not is_related or most < _FILLED[inside == 0] * area):
         return _Judged(" (cut off)", is_partly=bool(inside) or most >= part * area)
     return _Judged(is_unseen=False)
+
+
+def _list_covered(own: Sequence[Actor], label: str, views: Sequence[View]) -> Iterator[str]:
+    """Note on the bodies of an object of which others hide more than half, and on how much."""
+    shares = [view.share for view in views if view.pixels and view.share < MOST_COVERED]
+    who = label if len(own) == 1 else f"{label} ({len(shares)} of {len(own)})"
+    if shares:
+        yield f"the {who} is partly hidden: at most {min(shares):.0%} of its pixels are seen"
 
 
 def _until_broken(one: Actor, view: View, times: Sequence[float]) -> View:

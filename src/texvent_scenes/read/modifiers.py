@@ -85,7 +85,9 @@ def say_word(draft: SceneDraft, token: Token, subjects: Indices) -> None:
     if field == "rate_hz" and "flicker_hz" in light and not things:
         light["flicker_hz"] = value
     elif field == "picture" and draft.things:
-        (things or draft.things)[-1]["picture"] = vars(value)
+        is_of_last = draft.beside(token, -1).has("noun")  # "beside april tag 9"
+        named = [draft.things[index] for index in draft.last.nearest if is_of_last]
+        (named or things or draft.things)[-1]["picture"] = vars(value)
     elif _is_open(draft, field, things):
         is_told = field in ("colour", *word_set("things", "claimed"))
         return _claim_adverb(draft, token, field, value, subjects if is_told else [])

@@ -110,11 +110,12 @@ class Relation:
 class Picture:
     """A texture image on a flat object: a poster, a page, a screen."""
 
-    kind: Literal["file", "checkerboard", "text"]
+    kind: Literal["file", "checkerboard", "text", "tag"]
     """Source of the texture."""
     value: str
     """Path of an image or video, which a scene file may give relative to its own folder; columns
-    and rows of squares, such as "9x6"; or the text."""
+    and rows of squares, such as "9x6"; the text; or the id of an AprilTag of the family 36h11, 0 to
+    586, from which the copies count on."""
 
 
 @dataclass(frozen=True)
@@ -145,11 +146,12 @@ class SceneObject:
     relations: tuple[Relation, ...] = ()
     """Relations to other objects."""
     picture: Picture | None = None
-    """Texture image."""
+    """Texture image; left out: what the noun usually shows, of each AprilTag another id."""
     blink_hz: Hertz | None = None
     """Frequency of its own lamp, on and off, Hz."""
     switch_s: Seconds | None = None
-    """Time at which its lamps are switched on, s; off where `is_lit` is false."""
+    """Time at which its lamps are switched, s: from then on they are on, or off where `is_lit` is
+    false; until then the other way round."""
     is_lit: bool | None = None
     """Whether its lamps are on; left out: headlights at night, candles always."""
     position_m: tuple[Coordinate, Coordinate] | None = None
@@ -160,7 +162,8 @@ class SceneObject:
     and comes down to the ground."""
     heading_deg: Annotated[float, Between(-360.0, 360.0)] | None = None
     """Heading, degrees anticlockwise seen from above: 0 = right (x), 90 = away (y); it takes the
-    place of a motion's direction."""
+    place of a motion's direction. Left out, boards and calibration targets at rest face the
+    camera."""
 
     @property
     def motion(self) -> Motion | None:

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from tests.capture.conftest import ClipWriter
 from tests.examples import examples
 from tests.scenes.hand_scenes import HandScene
+from tests.scenes.staged import stage, thing
 
 from texvent.camera import PosedCamera
 from texvent.errors import InputError
@@ -19,7 +20,7 @@ from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.protocol import Pose
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.pictures import CACHED_FRAMES, PicturedModel, check_picture, load_picture
-from texvent_scenes.raycast.render import render_light
+from texvent_scenes.raycast.render import render, render_light
 from texvent_scenes.spec.scene import Picture
 from texvent_scenes.staging.actors import PlacedModel, assemble
 
@@ -148,3 +149,33 @@ def test_a_picture_is_whole_upright_and_in_its_own_shape(noun, sides, tmp_path):
     colourful = np.ptp(light, axis=2) > 0.5 * light.max(axis=2)
     assert colourful[judged].mean() > 0.97
     assert not margin.any() or colourful[margin].mean() < 0.05
+
+
+def detected_tags(scene, size, time_s=0.0):
+    """Ids of AprilTags that a detector finds in a picture."""
+    image = np.clip(render(scene, time_s, size), 0.0, 255.0).astype(np.uint8)
+    family = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_APRILTAG_36h11)
+    _, ids, _ = cv2.aruco.ArucoDetector(family).detectMarkers(image)
+    return set() if ids is None else set(ids.ravel().tolist())
+
+
+@given(st.lists(st.one_of(st.none(), st.integers(0, 580)), min_size=1, max_size=2, unique=True),
+       st.integers(1, 2))  # fmt: skip
+@examples(15)
+def test_every_april_tag_has_an_id_of_its_own_which_a_detector_reads(stated, count):
+    said = [one for one in stated if one is not None]
+    objects = [
+        thing("april tag", count=count, picture=None if one is None else Picture("tag", str(one)))
+        for one in stated
+    ]
+    free = [tag for tag in range(9) if tag not in {one + n for one in said for n in range(count)}]
+    expected = {one + n for one in said for n in range(count)}
+    expected |= {*free[: count * (len(stated) - len(said))]}
+    if len(expected) == count * len(stated):  # two that are stated do not meet
+        assert detected_tags(stage(*objects), SensorSize(520, 390)) == expected
+
+
+@pytest.mark.parametrize("text", ["-1", "587", "x", "", "3.5"])
+def test_an_id_that_no_april_tag_has_is_refused(text):
+    with pytest.raises(InputError, match="0 to 586"):
+        check_picture(Picture("tag", text))

@@ -5,12 +5,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.scenes.staged import SIZE, middle, stage, thing
+from tests.scenes.staged import SIZE, middle, place, stage, thing
 
 from texvent.camera import project
+from texvent_scenes.colours import rgb_of
 from texvent_scenes.defaults import complete
 from texvent_scenes.description import to_description
 from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.raycast.ground_truth import ground_truth
+from texvent_scenes.raycast.render import render_light
+from texvent_scenes.rendered_scene import Texture
 from texvent_scenes.scene_input import understand
 from texvent_scenes.spec.scene import Place, Relation, Scene, SceneObject
 
@@ -197,3 +202,44 @@ def test_what_jumps_over_something_clears_it_and_lands_behind_it(noun, target):
     before, after = (middle(one, time_s)[1] for time_s in (0.0, 2.0))
     assert before < other.middle(0.0)[1] < after
     assert one.track.at(2.0).position[2] == pytest.approx(0.0, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    "noun", sorted(nouns_with("faces the camera") | nouns_with("flat pattern"))
+)
+def test_a_board_without_a_heading_faces_the_camera(noun):
+    (body,) = place(thing(noun))
+    front = body.track.at(0.0).to_world()[:, 0]
+    np.testing.assert_allclose(front / np.linalg.norm(front), [0.0, -1.0, 0.0], atol=1e-9)
+    turned = place(thing(noun, heading_deg=20.0))[0].track.at(0.0).to_world()[:, 0]
+    assert noun in nouns_with("flat pattern") or turned[0] > 0.9
+
+
+class Even:
+    """A scene whose first body has one colour and no texture."""
+
+    def __init__(self, scene, colour):
+        self._scene, self._colour = scene, colour
+
+    def __getattr__(self, name):
+        return getattr(self._scene, name)
+
+    def primitives(self, time_s):
+        shapes = self._scene.primitives(time_s)
+        own = shapes.instance == 1
+        return replace(
+            shapes,
+            texture=np.where(own, Texture.PLAIN, shapes.texture),
+            colour=np.where(own[:, None], np.float32(self._colour), shapes.colour),
+        )
+
+
+@pytest.mark.parametrize("colour", ["white", "orange", "blue", "#404040"])
+@pytest.mark.parametrize("noun", ["ball", "sphere", "cube", "cylinder", "cone"])
+def test_a_stated_colour_is_that_of_most_of_a_body(noun, colour):
+    """Its own pixels are as light as those of a body of that colour without a pattern."""
+    scene = stage(thing(noun, colour=colour), place="plain")
+    own = ground_truth(scene, 0.0, 0.01, SIZE).instance == 1
+    light, even = (render_light(one, 0.0, SIZE)[own].mean(axis=1)
+                   for one in (scene, Even(scene, rgb_of(colour))))  # fmt: skip
+    assert np.mean(np.abs(light / even - 1.0) < 0.25) > 0.75

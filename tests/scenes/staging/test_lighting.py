@@ -9,6 +9,7 @@ from tests.scenes.every_row import for_every
 from tests.scenes.staged import SIZE, stage, thing
 
 from texvent.sensor import SensorSize
+from texvent.transfer import decode_srgb
 from texvent_scenes.models.effects import LAMPS, LampKind, lamp_of
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.places import PLACES
@@ -237,3 +238,22 @@ def test_a_room_of_a_file_is_lit_at_night_where_it_says_so(row):
     lit = float(np.mean(render(compose_small(describe_scene(scene, NOUNS)), 0.1, SMALL)))
     (dark, _), _ = seen(place, kind)
     assert lit > 2.0 * dark
+
+
+DARKER = {"night": 0.75, "moonlight": 0.75, "dusk": 0.97}
+"""Most light of a picture that is a scene's at night, as a share of that by day."""
+SMALL = SensorSize(43, 32)
+
+
+def luminance(place, light):
+    """Mean light of a picture of a ball."""
+    image = render(stage(thing("ball"), light=light, place=place), 0.0, SMALL)
+    return float(decode_srgb(np.asarray(image, np.float64) / 255.0).mean())
+
+
+@for_every(sorted(name for name, one in PLACES.items() if one.light != "space"))
+def test_every_place_is_darker_at_night_than_by_day(place):
+    day = luminance(place, "day")
+    lights = DARKER if not PLACES[place].light else ("night", "moonlight")
+    shares = {light: luminance(place, light) / day for light in lights}
+    assert all(share < DARKER[light] for light, share in shares.items()), shares

@@ -55,6 +55,7 @@ from texvent_scenes.staging.placement.relations import (
     place_on_targets,
 )
 from texvent_scenes.staging.placement.sizes import Sizes
+from texvent_scenes.staging.placement.tags import list_pictures, note_tags
 from texvent_scenes.staging.placement.ways import has_fault, lead
 from texvent_scenes.staging.placement.zones import list_orphans
 from texvent_scenes.staging.surroundings.environment import lies_ashore
@@ -161,8 +162,11 @@ class ObjectPlacer:
             )
             for seed in seeds
         ]
-        if scene_object.picture is not None and can_show(noun.name):
-            models = [PicturedModel(one, noun.name, scene_object.picture) for one in models]
+        if can_show(noun.name):
+            shown = list_pictures(self._description.objects, index)
+            self.notes.extend(note_tags(label_of(self._description, index), scene_object, shown))
+            models = [PicturedModel(one, noun.name, picture) if picture is not None else one
+                      for one, picture in zip(models, shown, strict=True)]  # fmt: skip
         motions, start_m = scene_object.motions or (STANDING,), scene_object.height_m
         rows = [one.value for one in self._description.claims
                 if one.kind == "row" and one.subject == index]  # fmt: skip

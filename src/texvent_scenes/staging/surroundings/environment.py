@@ -32,6 +32,7 @@ from texvent_scenes.staging.surroundings.lighting import (
     DEPTHS,
     Lighting,
     choose_lighting,
+    daylight_share,
     is_unlit_room,
     wave_level,
 )
@@ -112,7 +113,6 @@ _SNOWED_OVER = (
 """Grounds whose grass or paving is white when snow lies on it."""
 _SNOW_SHARES = {Ground.GRASS: 1.0, Ground.CITY: 0.5}
 """Share of white in the second colour of grounds under snow: of blades, of a street."""
-_WATER_COLOUR: Colour = (0.05, 0.28, 0.42)
 _DARKER, _LEAST_CONTRAST = 0.1, 1.0
 """Dark backdrop as a multiple of the usual one; difference in log brightness from the objects that
 keeps the usual one: edges cross a threshold of 0.25 four times."""
@@ -193,7 +193,7 @@ def build_environment(
     lighting = choose_lighting(place, description.light, is_unlit=is_unlit)
     colour, second = _ground_colours(place, said)
     sky_top, horizon = _sky_colours(place, lighting, said)
-    fog_distance, fog_colour = _choose_fog(place, said, horizon, distance_m)
+    fog_distance, fog_colour = _choose_fog(place, lighting, said, horizon, distance_m)
     is_white = said.has_snow and place.ground in _SNOWED_OVER
     is_dim, is_usual = said.weather in ("rain", "snow"), said.wave_height == Place.wave_height
     base = Environment(
@@ -238,12 +238,17 @@ def _ground_under(description: SceneDescription, place: PlaceModel) -> Ground:
 
 
 def _sky_colours(place: PlaceModel, lighting: Lighting, said: Place) -> tuple[Colour, Colour]:
-    """Colours of the zenith and of the horizon: of a backdrop the same all around."""
+    """Colours of the zenith and of the horizon: of a backdrop those of ground in that light."""
     sky = rgb_of(said.sky)
     if sky is not None:
         return sky, mix(sky, lighting.sky_horizon, 0.5)
+    if not place.is_backdrop:
+        return lighting.sky_top, lighting.sky_horizon
     average = mix(*_ground_colours(place, said), 0.5)
-    return (average, average) if place.is_backdrop else (lighting.sky_top, lighting.sky_horizon)
+    red, green, blue = (
+        min(own * share, 1.0) for own, share in zip(average, daylight_share(lighting), strict=True)
+    )
+    return (red, green, blue), (red, green, blue)
 
 
 def _cloud_share(description: SceneDescription, place: PlaceModel, lighting: Lighting) -> float:
@@ -278,11 +283,11 @@ def _ground_colours(place: PlaceModel, said: Place) -> tuple[Colour, Colour]:
 
 
 def _choose_fog(
-    place: PlaceModel, said: Place, horizon: Colour, distance_m: float
+    place: PlaceModel, lighting: Lighting, said: Place, horizon: Colour, distance_m: float
 ) -> tuple[float, Colour]:
     """Sight to 37 %, m, and the colour that all fades into."""
     if place.ground is Ground.UNDERWATER:
-        return max(_UNDERWATER_SIGHT_M, 3.5 * distance_m), _WATER_COLOUR
+        return max(_UNDERWATER_SIGHT_M, 3.5 * distance_m), lighting.water
     weather, distance_m = said.weather, distance_m / said.weather_amount
     if weather == "fog":
         grey = sum(horizon) / 3.0

@@ -16,6 +16,8 @@ from texvent_scenes.spec.scene import Light, Scene
 _WARM: Colour = (1.0, 0.72, 0.40)
 _LAMP_OFFSET = np.array([-0.25, -0.25, 0.55])
 """From what the camera looks at to a lamp out of sight, in distances of the camera."""
+_LAMP_LIGHT = 0.5
+"""Light of that lamp on the ground below it: less than that of the sun."""
 
 
 @dataclass(frozen=True)
@@ -32,6 +34,8 @@ class Lighting:
     shadows: bool = True
     lamps: float = 0.0
     """Strength of artificial light where a place has lamps, 0..1."""
+    water: Colour = (0.05, 0.28, 0.42)
+    """Colour that all fades into under water."""
 
 
 _DAY = Lighting(
@@ -59,7 +63,7 @@ LIGHTINGS: dict[str, Lighting] = {
     ),
     "dusk": Lighting(
         (0.80, -0.42, 0.26), (1.10, 0.53, 0.22), (0.27, 0.23, 0.30), (0.045, 0.06, 0.20),
-        (0.62, 0.27, 0.105), 0.34, 1.75, lamps=0.5,
+        (0.62, 0.27, 0.105), 0.34, 1.15, lamps=0.5,
     ),
     "dawn": Lighting(
         (-0.80, -0.42, 0.28), (1.0, 0.62, 0.42), (0.26, 0.25, 0.33), (0.20, 0.30, 0.62),
@@ -98,6 +102,8 @@ DARK = ("night", "moonlight", "lamp")
 """Kinds of light by which a sky is dark."""
 
 
+_THROUGH_WATER = 0.12
+"""Share of daylight under water that the sky of a night sends there."""
 _THROUGH_WINDOWS = 0.2
 """Share of the light of a night sky that is left in a room without lamps."""
 
@@ -119,13 +125,38 @@ def choose_lighting(place: PlaceModel, light: Light, *, is_unlit: bool = False) 
         red, green, blue = (_THROUGH_WINDOWS * one for one in chosen.ambient)
         return replace(chosen, sun=(0.0, 0.0, 0.0), ambient=(red, green, blue), shadows=False)
     if place.light == "underwater":
-        return _UNDERWATER
+        return _dimmed(_UNDERWATER, _THROUGH_WATER) if kind in DARK else _UNDERWATER
     if place.light == "space" or (place.light and kind not in DARK):
         return _DAYLIGHTS[place.light]
     if place.ground is Ground.NONE and kind == "night":
         return LIGHTINGS["moonlight"]  # no lamps up there: without a moon one sees nothing
     chosen = LIGHTINGS[kind]
     return replace(chosen, lamps=0.3 * chosen.lamps) if place.ground is Ground.SNOW else chosen
+
+
+def _dimmed(lighting: Lighting, share: float) -> Lighting:
+    """The lighting with that share of its light."""
+    names = ("sun", "ambient", "sky_top", "sky_horizon", "water")
+    dimmer: dict[str, Any] = {
+        name: tuple(share * one for one in getattr(lighting, name)) for name in names
+    }
+    return replace(lighting, **dimmer)
+
+
+def daylight_share(lighting: Lighting) -> Colour:
+    """Light on level ground as a share, per channel, of that by day."""
+    now, day = (_on_level_ground(one) for one in (lighting, _DAY))
+    red, green, blue = (one / usual for one, usual in zip(now, day, strict=True))
+    return red, green, blue
+
+
+def _on_level_ground(lighting: Lighting) -> Colour:
+    """Light of sun and sky on level ground."""
+    height = lighting.sun_direction[2] / math.hypot(*lighting.sun_direction)
+    red, green, blue = (
+        height * sun + sky for sun, sky in zip(lighting.sun, lighting.ambient, strict=True)
+    )
+    return red, green, blue
 
 
 def hidden_lamp(target: Float64Array, reach_m: float, strength: float) -> NDArray[Any]:
@@ -135,7 +166,9 @@ def hidden_lamp(target: Float64Array, reach_m: float, strength: float) -> NDArra
     """
     place = target + reach_m * _LAMP_OFFSET
     height = max(float(place[2]), 0.7)
-    return point_lamp(place, 1.1 * strength * height**2 * np.array(_WARM), 5.0 * height, 0.3)
+    return point_lamp(
+        place, _LAMP_LIGHT * strength * height**2 * np.array(_WARM), 5.0 * height, 0.3
+    )
 
 
 def point_lamp(place: ArrayLike, light: ArrayLike, reach_m: float, radius_m: float) -> NDArray[Any]:

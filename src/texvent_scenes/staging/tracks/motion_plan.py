@@ -250,7 +250,7 @@ def _face_camera(noun: Noun, model: Model, motion: Motion, toss: float) -> float
     """Heading of what stays in place: animals from the side, the rest facing the camera.
 
     Of animals seen from the side the front is a little nearer than the rear.
-    Fronts are at +x. Flat objects turn it to the camera; others stand at an angle to it.
+    Fronts are at +x. Boards and flat objects turn it to the camera; others stand at an angle to it.
     """
     tilt = 0.5 * (2.0 * toss - 1.0)
     front, side = -0.5 * math.pi, math.pi if toss < 0.5 else 0.0
@@ -260,7 +260,7 @@ def _face_camera(noun: Noun, model: Model, motion: Motion, toss: float) -> float
     turned = trait_value("side view", noun.name)
     if turned is not None:
         return turned * tilt if motion.direction != "left" else math.pi
-    if noun.name in nouns_with("flat pattern"):
+    if noun.name in nouns_with("flat pattern") | nouns_with("faces the camera"):
         return front
     if model.length < FLAT * model.width or is_person:
         return front + 0.5 * tilt
