@@ -8,7 +8,7 @@ from tests.scenes.every_row import for_every
 from tests.scenes.staged import place
 
 from texvent.errors import ConfigError
-from texvent_scenes.models.activities import ANIMAL_ACTIVITIES
+from texvent_scenes.models.activities import ACTIVITIES, ANIMAL_ACTIVITIES
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
 from texvent_scenes.scene_input import describe_scene
@@ -196,3 +196,16 @@ def test_without_a_time_a_light_is_seen_before_and_after_it_turns():
     actor = show(noun, Motion(kind))
     assert not np.allclose(light(actor, 0.0), light(actor, 1.9))
     assert pytest.approx(light(actor, 0.0)) == light(actor, 0.3)
+
+
+@pytest.mark.parametrize("lead_s", [0.0, 0.4])
+@pytest.mark.parametrize("pace", [0.5, 1.0, 1.6])
+@pytest.mark.parametrize("kind", [name for name, one in ACTIVITIES.items() if one.repeats_hz])
+def test_an_act_among_others_goes_on_at_its_pace(kind, pace, lead_s):
+    own_s = 2.0 / ACTIVITIES[kind].repeats_hz
+    end_s = lead_s + own_s / pace
+    motions = [Motion(kind, pace=pace, start_s=lead_s or None), Motion("stand", start_s=end_s)]
+    (man,) = place(SceneObject("man", motions=motions), duration_s=12.0)
+    begin, end = man.pose(lead_s + 1e-6), man.pose(end_s - 1e-6)
+    assert (begin.activity, end.activity) == (kind, kind)
+    assert end.time_s - begin.time_s == pytest.approx(own_s, abs=1e-4)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, get_args
 
 from texvent_scenes.description import Claim
-from texvent_scenes.models.activities import SAT
+from texvent_scenes.models.activities import ACTIVITIES, SAT
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with
@@ -21,6 +21,8 @@ _SAID_TWICE = ("travel", "handheld", "static")
 """Moves of which a verb says what a shot is: "handheld camera shaking"."""
 _NEAR = 3
 """Words from an effect to what it comes from: "smoke is rising from a chimney"."""
+_REST = {"kind", "start_s"}
+"""Fields of the rest after an act that is counted."""
 _DRIVEN = "travel forward drive"
 """Shot from a vehicle on a road."""
 _UNTURNED = ("handheld", "static")
@@ -263,7 +265,17 @@ def set_field(thing: dict[str, Any], kind: str, field: str, value: Any) -> None:
         motions.insert(0, {"kind": motions[0]["kind"]})  # "brakes after 1 second"
     motion = motions[-1]
     field = "rate_hz" if field == "turns_hz" else field
+    if field == "pace" and _rests_when_done(motions):  # "claps four times quickly"
+        motion["start_s"] = round(motion["start_s"] / value, 6)
+        motion = motions[-2]
     motion[field] = round(motion.get("pace", 1.0) * value, 6) if field == "pace" else value
+
+
+def _rests_when_done(motions: Sequence[Mapping[str, Any]]) -> bool:
+    """Whether the last motion is the rest after an act that is counted."""
+    if len(motions) != 2 or motions[0]["kind"] not in ACTIVITIES:
+        return False
+    return ACTIVITIES[motions[0]["kind"]].repeats_hz > 0.0 and motions[1].keys() == _REST
 
 
 def add_motion(thing: dict[str, Any], act: VerbSense, *, goes_on: bool = False) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -29,6 +29,7 @@ from texvent_scenes.staging.tracks.phases import (
     done_on_the_way,
     goes_straight_up,
     needs_steering,
+    schedule,
     time_of_work,
     usual_speed,
     works_in_turn,
@@ -157,9 +158,19 @@ def plan_motion(
             motions, noun, model, yaw=yaw, stated_m_s=stated, duration_s=duration_s,
             spin_axis=plan.spin_axis, start_m=start_m,
         )  # fmt: skip
+        path = replace(path, terms=(*path.terms, *_hasten(motions, noun, duration_s)))
         return replace(plan, yaw=path.yaw, path=path)
     pace = 1.0 if motion.speed_m_s is not None else motion.pace
     return replace(plan, speed_m_s=speed * pace, gesture=choose_gesture(noun, motion))
+
+
+def _hasten(motions: Sequence[Motion], noun: Noun, duration_s: float) -> Iterator[Term]:
+    """Time of the limbs beside that of the clip: each act goes on at its pace."""
+    for phase in schedule(motions, duration_s):
+        motion, rate, begin_s = phase.motion, phase.motion.pace - 1.0, phase.start_s
+        if rate and (motion.kind in noun.acts or choose_gesture(noun, motion) is not None):
+            yield Term("run_s", offset=-rate * begin_s, drift=rate, begin_s=begin_s,
+                       end_s=phase.end_s)  # fmt: skip
 
 
 def _rolling_radius(model: Model) -> float:
