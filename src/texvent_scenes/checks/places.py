@@ -76,7 +76,7 @@ def find_unseen_place(
         yield Violation("place", str(said.name), f"the {said.name}: it is as wide as a room")
     instants = [*zip(times, cameras, strict=True)]
     is_open = not (scene.place.is_room or scene.place.is_backdrop) and (said.clouds or names_sky)
-    if is_open and not any(share_of_sky(scene, *one) >= _LEAST_SKY for one in instants):
+    if is_open and not shows_sky(scene, times):
         if said.clouds:
             yield Violation("clouds", "", "clouds: the sky is out of view")
         yield Violation("place", "sky", "" if said.clouds else "the sky: it is out of view")
@@ -191,6 +191,11 @@ def _has_shore(scene: ComposedScene, time_s: float, camera: PosedCamera) -> bool
     wet = wet_share(scene, ground_m) if len(ground_m) else 0.0
     own = wet if _has_water_name(scene) else 1.0 - wet
     return own * share >= _LEAST_SHORE
+
+
+def shows_sky(scene: ComposedScene, times: Sequence[float]) -> bool:
+    """Whether nothing stands before enough of the image at one of some instants."""
+    return any(share_of_sky(scene, one, scene.camera(one)) >= _LEAST_SKY for one in times)
 
 
 def share_of_sky(scene: ComposedScene, time_s: float, camera: PosedCamera) -> float:

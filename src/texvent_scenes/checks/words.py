@@ -42,7 +42,7 @@ from texvent_scenes.checks.acts import (
     tips,
     turns,
 )
-from texvent_scenes.checks.body_boxes import BodyBoxes
+from texvent_scenes.checks.body_boxes import BodyBoxes, is_any_inside
 from texvent_scenes.checks.camera_ways import (
     is_at_eye_level,
     is_camera_so,
@@ -59,7 +59,7 @@ from texvent_scenes.checks.parts import (
     is_moving_inside,
     is_of_material,
 )
-from texvent_scenes.checks.places import is_before_sky
+from texvent_scenes.checks.places import is_before_sky, shows_sky
 from texvent_scenes.checks.staged_clip import StagedClip
 from texvent_scenes.checks.water import is_above_way, wet_share
 from texvent_scenes.description import SEEN, Claim, SceneDescription
@@ -86,7 +86,7 @@ _DONE = (
     "begin",
 )
 """Length of a clip in which motions get so far that they are judged, s; claims of read motions."""
-_OF_CAMERA = (SEEN, "circle", "camera", "macro", "eye level")
+_OF_CAMERA = (SEEN, "circle", "camera", "macro", "eye level", "sky")
 """Claims that may be made of the camera."""
 _COVERED = 0.6
 """Most distance in the image of what is covered, in half extents of both."""
@@ -308,6 +308,17 @@ def _is_in_box(one: Actor, other: Actor, time_s: float) -> bool:
     return bool(((corners.min(axis=0) <= middle) & (middle <= corners.max(axis=0))).all())
 
 
+def _stays_in_image(staged: StagedClip, claim: Claim) -> bool:
+    """Whether the middle of each body is in the image all the time."""
+    for one in staged.own(claim):
+        for time_s in staged.times:
+            corners = one.corners(time_s)
+            middle = 0.5 * (corners.min(axis=0) + corners.max(axis=0))
+            if not is_any_inside(middle[None], staged.scene.camera(time_s), staged.size):
+                return False
+    return True
+
+
 def _is_before_sky(staged: StagedClip, claim: Claim) -> bool:
     """Whether around each body nothing but the sky is seen, at most instants that show it."""
     return all(is_before_sky(staged.scene, one, staged.times) for one in staged.own(claim))
@@ -330,6 +341,8 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "land": lands, "aside": goes_aside, "along": goes_along,
     "grip": handles_by_hand, "camera": is_camera_so, "stop": stops, "move": moves, "tip": tips,
     "turn": turns, "begin": begins, "near": _is_near, "pace": changes_pace,
+    "in image": _stays_in_image,
+    "sky": lambda staged, _: shows_sky(staged.scene, staged.times),
     "sky behind": _is_before_sky, "taken in": _is_taken_in,
     "sit at": _sits_at, "macro": is_macro, "overtaken": is_overtaken, "cover": _covers,
     "eye level": is_at_eye_level, "above way": is_above_way, "part": _tells_parts,

@@ -20,6 +20,8 @@ from texvent_scenes.read.things import name_group
 
 _STAYING = frozenset({"handheld", "roll", "truck"})
 """Moves of a camera over what it looks at."""
+_TURNS = frozenset({"pan", "tilt"})
+"""Moves of a camera that stays where it is."""
 _DRIVEN = "travel forward drive"
 """Shot from a vehicle on a road."""
 _FIRST_PERSON = ("camera", "view", "first person")
@@ -96,6 +98,15 @@ def _names_passage(groups: Sequence[Group]) -> bool:
     return bool({*nouns_of(groups)} & nouns_with("passage"))
 
 
+def goes_itself(draft: SceneDraft, clause: Clause) -> bool:
+    """Whether what a camera follows does what a clause says: "follows a ball as it rolls"."""
+    follows = bool(draft.moves) and draft.moves[-1]["kind"] == "follow" and clause.about == "same"
+    verb = clause.verb or NO_TOKEN
+    does = any(one.value.who != "camera" for one in verb.all("verb"))
+    is_named = draft.beside(verb, -1).has("pronouns")
+    return follows and does and is_named and any(map(draft.can_go, draft.last.subjects))
+
+
 def is_shot(clause: Clause) -> bool:
     """Whether a clause without a subject goes on about a shot: "6-DoF motion over a poster"."""
     if clause.subjects or clause.objects or clause.about not in ("", "same"):
@@ -124,6 +135,7 @@ def apply_to_camera(draft: SceneDraft, clause: Clause, *, is_own: bool) -> None:
     _lead_followed(draft, move, targets)
     for one in clause.after:
         if not isinstance(one, Phrase):
+            draft.show(*([one] if one.text in ("by", "to") else []))
             set_scene(draft, one)
         elif is_standpoint(draft, one, move or {}) or (
             move is not None and _go_along(draft, clause, move, one)
@@ -134,10 +146,31 @@ def apply_to_camera(draft: SceneDraft, clause: Clause, *, is_own: bool) -> None:
         else:
             targets += _see_past(draft, move, one)
     if move is not None:
+        _make_move(draft, clause.verb or NO_TOKEN, move, targets)
+
+
+def _make_move(draft: SceneDraft, verb: Token, move: dict[str, Any], targets: list[int]) -> None:
+    """Add a move of the camera, which looks at some things."""
+    if verb.text in word_set("things", "keeping"):
+        _keep_in_view(draft, verb, targets)
+    if move != split_move("follow") or move not in draft.moves:
         draft.add_move(move)
-        if targets:
-            draft.parts["camera"].setdefault("target", targets[0])
-        _lead_followed(draft, move, targets)
+    if targets:
+        draft.parts["camera"].setdefault("target", targets[0])
+    if targets and move["kind"] == "follow":
+        draft.last.subjects = targets
+    _lead_followed(draft, move, targets)
+
+
+def _keep_in_view(draft: SceneDraft, verb: Token, targets: Indices) -> None:
+    """Leave it to the staged scene whether something stays in the image; a pan to it follows it."""
+    about = targets or draft.last.subjects[:1] or [*range(len(draft.things))][:1]
+    draft.claim(verb, "in image", "", about)
+    for token in draft.tokens[: verb.at]:
+        senses = [one.value for one in token.all("verb") if one.value.who == "camera"]
+        if {one.kind.split()[0] for one in senses} & _TURNS and draft.shows(token):
+            draft.mark(token, "follow")
+            draft.moves[:] = [one for one in draft.moves if one["kind"] not in _TURNS]
 
 
 def _see_past(draft: SceneDraft, move: dict[str, Any] | None, phrase: Phrase) -> list[int]:

@@ -21,6 +21,7 @@ from texvent_scenes.read.prepositions import (
     find_mutual,
     find_relation,
     go_to_place,
+    is_of_particles,
     is_rained_on,
     is_standpoint,
     keep_distance,
@@ -47,6 +48,7 @@ def say_after(
             continue
         if isinstance(one, Phrase):
             who = _choose_placed(draft, one, last, subjects, told)
+            who = [] if is_of_particles(draft, one) else who
             told = apply_phrase(draft, one, who, moved) or moved
             last = one.preposition
             keep_distance(draft, last, who)

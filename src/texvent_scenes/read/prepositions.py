@@ -287,6 +287,13 @@ def is_rained_on(draft: SceneDraft, token: Token, kind: str) -> bool:
     return bool(is_weather or is_all_over) and kind in _RAINED_ON
 
 
+def is_of_particles(draft: SceneDraft, phrase: Phrase) -> bool:
+    """Whether it is said of what comes down before it: "watches leaves falling from a tree"."""
+    before = draft.beside(phrase.preposition, -1)
+    falls = any(one.endswith("ing") for one in before.text.split()[1:])
+    return falls and not before.has("noun") and before.has("effect", "scene")
+
+
 def is_standpoint(draft: SceneDraft, phrase: Phrase, move: Mapping[str, Any] | None = None) -> bool:
     """Whether it says from where something is seen, which puts nothing there; its words are lost.
 

@@ -7,7 +7,14 @@ from dataclasses import replace
 
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.read.account import Reading, finish
-from texvent_scenes.read.camera import apply_to_camera, is_ego, is_shot, look_out, sit_in
+from texvent_scenes.read.camera import (
+    apply_to_camera,
+    goes_itself,
+    is_ego,
+    is_shot,
+    look_out,
+    sit_in,
+)
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.draft.setting import names_place
 from texvent_scenes.read.parsing.clauses import Clause, read_clauses
@@ -57,6 +64,7 @@ def _apply(draft: SceneDraft, clause: Clause) -> None:
             draft.absent.append(head.all("noun")[0].value.noun)
             draft.show(head, *clause.negation)
     goes_on = draft.last.was_camera and clause.about in ("same", "meanwhile", "then")
+    goes_on &= not goes_itself(draft, clause)
     is_aboard = any(draft.fates.get(one.at) == "camera" for one in heads_of(clause.subjects))
     is_named = goes_on or is_aboard or clause.about == "camera"
     seated = None if is_named else (sit_in(draft, clause) or look_out(draft, clause))

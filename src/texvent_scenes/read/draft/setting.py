@@ -42,6 +42,8 @@ def set_scene(draft: SceneDraft, token: Token, things: Sequence[Any] = ()) -> bo
             draft.parts[part][name] = value
     is_near = token.text.split()[0] in word_set("things", "nearest")
     draft.claim(token, "macro", "", [None] if is_near else [])
+    is_above = not word_set("things", "overhead").isdisjoint(token.text.split())
+    draft.claim(token, "sky", "", [None] if is_above and said else [])
     is_said = token.has("shot", "scene")
     lights = [value for part, name, value in said if (part, name) == ("light", "kind")]
     is_sun = bool(lights) and token.text in word_set("things", "suns")

@@ -16,9 +16,11 @@ from texvent_scenes.read.parsing.groups import (
     heads_of,
     nouns_of,
 )
-from texvent_scenes.read.parsing.lexicon import list_forms, word_set, word_table
+from texvent_scenes.read.parsing.lexicon import lexicon_of, list_forms, word_set, word_table
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
 
+_LED = frozenset({"follow", "orbit"})
+"""Moves of a camera about somebody: "tracking shot following a cyclist"."""
 _IS = ("is", "are", "was", "were")
 
 
@@ -158,7 +160,7 @@ class _Parser(GroupReader):
 
     def _begin_with_verb(self, clause: Clause) -> Clause | None:
         """Clause of a second verb: of a participle, or after one, as in "a car turning passes"."""
-        if (led := self._begin_led(clause)) is not None:
+        if (led := self._begin_kept() or self._begin_led(clause)) is not None:
             return led
         token, verb = self._token(), clause.verb
         before = clause.after[-1] if clause.after else None
@@ -182,6 +184,27 @@ class _Parser(GroupReader):
         is_next = token.verbs(*forms) and self._is_verb(replace(clause, verb=None))
         return Clause(about="meanwhile") if is_next else None
 
+    def _begin_kept(self) -> Clause | None:
+        """Clause of a camera that somebody stays in view of: "keeps her in frame"."""
+        aim = int(self._token().text == "to" and self._token(1).text == "keep")
+        token = self._token(aim)
+        is_done = not aim and bool(token.verbs("ed") or token.text == "kept")
+        camera = 2 + self._token(2).has("articles")
+        by_camera = self._token(1).text == "by" and self._token(camera).has("camera")
+        last = 1 if is_done else next((n for n in range(2, 9) if self._token(n).is_framed), 0)
+        is_kept = token.text in word_set("things", "keeping") and self._token(last).is_framed
+        is_kept &= not any(self._token(n).is_sign for n in range(last))
+        if not (is_kept or (is_done and by_camera)):
+            return None
+        follow = tuple(one for one in lexicon_of(None)[("follow",)] if one.value.who == "camera")
+        after = (self._token(1),) if by_camera else (self._token(),) * aim
+        self._at += camera + 1 if by_camera else 1 + aim
+        is_back = by_camera or (self._token().has("pronouns") and not self._starts_group())
+        self._at += is_back and not by_camera
+        objects = () if is_back or self._token().is_framed else self._groups()
+        verb = replace(token, senses=follow)
+        return Clause(about="camera", verb=verb, objects=objects, after=after, is_back=is_back)
+
     def _begin_led(self, clause: Clause) -> Clause | None:
         """Clause of what one does who is taught, helped or watched: "teaches a dog to jump"."""
         last = clause.objects[-1].head if clause.objects and not clause.after else None
@@ -200,6 +223,10 @@ class _Parser(GroupReader):
         ahead = 1 if self._token().has("articles") else 0
         token, after = self._token(ahead), self._token(ahead + 1)
         is_shot = token.has("shot") and not token.has("noun") and bool(ahead and after.has("verb"))
+        leads = {one.value.kind for one in token.verbs("ing") if one.value.who == "camera"}
+        is_led = bool(leads & _LED) and self._token(-1).has("shot", "style", "scene")
+        if is_led and not (clause.has_subject or clause.verb):
+            return replace(clause, about="camera")
         if not clause.has_subject and clause.verb is None and (token.has("camera") or is_shot):
             self._at += ahead + (not is_shot)  # "a dashcam driving" is a shot as well
             return replace(clause, about="camera")

@@ -77,6 +77,12 @@ class Token:
         return self.text in word_set("things", "liquids")
 
     @property
+    def is_framed(self) -> bool:
+        """Whether it says that something is in the image: "in the frame"."""
+        words = (one for one in self.text.split() if one not in word_set("senses", "articles"))
+        return " ".join(words) in word_set("things", "framed")
+
+    @property
     def is_grammar(self) -> bool:
         """Whether it says nothing by itself: "the", "is", "while", "footage"."""
         is_order = self.text in word_set("things", "order")
@@ -268,6 +274,7 @@ def _read_phrase(
         if len(phrase) > 1 and found:
             found = _without_chance(found, words, end, before)
             found = () if _is_shade(words, end, lexicon) else found
+            found = () if _is_doing(words, end, lexicon) else found
             is_thing = len(phrase) == 2 < end + 1 - at  # "approaching the camera", no camera
             found = tuple(one for one in found if one.kind != "noun" or not (
                 is_thing or _is_counted(senses, one, before)))  # fmt: skip
@@ -304,6 +311,13 @@ def _is_shade(words: Sequence[str], end: int, lexicon: Lexicon) -> bool:
     is_noun = any(one.kind == "noun" for one in lexicon.get(after, ()))
     is_led = is_noun or words[end - 1] in ("a", "an")
     return is_led and words[end].casefold() in word_set("things", "shades")
+
+
+def _is_doing(words: Sequence[str], end: int, lexicon: Lexicon) -> bool:
+    """Whether the last word of a phrase does what follows: "in the snow falling on a street"."""
+    both = tuple(one.casefold() for one in words[end : end + 2])
+    is_act = len(both) == 2 and both[1].endswith("ing")
+    return is_act and any(one.kind in ("scene", "effect") for one in lexicon.get(both, ()))
 
 
 def _as_senses(found: Found) -> tuple[int, Senses]:

@@ -288,14 +288,14 @@ def _choose_fog(
     """Sight to 37 %, m, and the colour that all fades into."""
     if place.ground is Ground.UNDERWATER:
         return max(_UNDERWATER_SIGHT_M, 3.5 * distance_m), lighting.water
-    weather, distance_m = said.weather, distance_m / said.weather_amount
+    weather, amount = said.weather, said.weather_amount
     if weather == "fog":
         grey = sum(horizon) / 3.0
-        return _FOG_SIGHT * distance_m, mix(horizon, (grey, grey, grey), 0.7)
+        return _FOG_SIGHT * distance_m / amount, mix(horizon, (grey, grey, grey), 0.7)
     if weather == "haze":
-        return _HAZE_SIGHT * distance_m, horizon
+        return _HAZE_SIGHT * distance_m / amount, horizon
     if weather in ("rain", "snow"):
-        return 14.0 * distance_m, horizon
+        return 14.0 * distance_m / math.sqrt(amount), horizon  # drops and flakes hide the rest
     return math.inf, horizon
 
 
