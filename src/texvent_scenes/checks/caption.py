@@ -6,13 +6,14 @@ Each line is measured on the scene, not read from the prompt, so that both can b
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from functools import partial
 from itertools import groupby
 
 import numpy as np
 
 from texvent.camera import PosedCamera
+from texvent.sensor import SensorSize
 from texvent_scenes.checks.body_boxes import BodyBoxes
 from texvent_scenes.checks.in_view import View
 from texvent_scenes.checks.looks import is_ball
@@ -20,20 +21,19 @@ from texvent_scenes.checks.places import share_of_sky
 from texvent_scenes.checks.staged_clip import StagedClip
 from texvent_scenes.checks.water import wet_share
 from texvent_scenes.colours import SURFACES, find_colour
-from texvent_scenes.models.materials import share_of
 from texvent_scenes.models.nouns import VARIANTS
-from texvent_scenes.models.places import PLACES
-from texvent_scenes.models.protocol import ModelPart, Pose
-from texvent_scenes.rendered_scene import Ground
+from texvent_scenes.raycast.ground_truth import cast_centres
+from texvent_scenes.raycast.render import world_and_shapes
+from texvent_scenes.rendered_scene import Ground, Texture
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.surroundings.lighting import DARK
 from texvent_scenes.words import list_plurals
 
-_REST = Pose(0.0, 0.0, 0.0, "stand")
 _BASIC = ("black", "dark grey", "grey", "white", "red", "orange", "yellow", "green", "blue",
           "purple", "pink", "brown", "beige")  # fmt: skip
-_MUCH, _MOST_COLOURS = 0.25, 2
-"""Share of a surface from which on a colour is named; most that are."""
+_WIDTH, _MUCH, _MOST_COLOURS = 120, 0.25, 2
+"""Width of the small pictures in which surfaces are counted, pixels; share of a surface from which
+on a colour is named; most that are."""
 _LEAST_SHARE, _MOST_SCENERY = 0.004, 4
 """Share of the image of a piece of scenery that is named; most nouns that are."""
 _STAYS, _STIRS, _TURNS, _HALF = 0.05, 0.01, math.radians(4.0), 0.6
@@ -43,6 +43,11 @@ _SUPPORTED_M, _GROUND_M = 0.06, 0.12
 """Gap to what bears a body, and height above the ground of what stands on it, m."""
 _CAMERA_M, _ZOOM = 0.03, 1.04
 """Way and ratio of focal lengths of a camera that are told."""
+_MATERIALS = {Texture.STRIPES, Texture.CHECKS, Texture.SPOTS, Texture.TILES, Texture.BOARDS,
+              Texture.STONE, Texture.CONCRETE, Texture.BRICK, Texture.WOOD, Texture.FUR,
+              Texture.FEATHERS, Texture.CLOTH, Texture.METAL, Texture.RUST, Texture.LEATHER,
+              Texture.SCALES, Texture.FOLIAGE, Texture.MIRROR}  # fmt: skip
+"""Textures that are named, of a surface of which they are the greater part."""
 _IDLE = ("move", "stand")
 """Activities without a word of their own: the way tells them."""
 _PARTS, _THIRD, _WIDE = ("at its left", "in its middle", "at its right"), 1.0 / 6.0, 0.25
@@ -58,21 +63,23 @@ def caption(staged: StagedClip, views: Mapping[int, View]) -> tuple[str, ...]:
         staged: the clip.
         views: instance id → the most that is seen of it.
     """
+    surfaces = _list_surfaces(staged)
     bodies = [line for index in range(len(staged.description.objects))
-              if (line := _tell_object(staged, index, views))]  # fmt: skip
+              if (line := _tell_object(staged, index, views, surfaces))]  # fmt: skip
     return (_tell_place(staged), *bodies, _tell_camera(staged))
 
 
 def _tell_place(staged: StagedClip) -> str:
     """Place, light, weather, effects, scenery in view and share of the sky."""
     scene, said = staged.scene, staged.description
-    is_named = PLACES.get(str(said.place.name)) is scene.place
-    name = said.place.name if is_named else scene.place.names[0]
+    name = said.place.name if said.place.name in scene.place.names else scene.place.names[0]
     kind = said.light.kind
     usual = "indoors" if scene.place.is_room else "by day"
     facts = [f"{name} {_LIGHTS.get(kind, f'by {kind}') if kind else usual}"]
-    weather = {said.place.weather, *scene.particles.kinds} - {None, "clear"}
-    facts += sorted(str(one) for one in weather)
+    weather, amount = said.place.weather, said.place.weather_amount
+    strength = "heavy " if amount > 1.0 else "light " if amount < 1.0 else ""
+    facts += sorted(f"{strength * (one == weather)}{one}"
+                    for one in {weather, *scene.particles.kinds} - {None, "clear"})  # fmt: skip
     facts += ["clouds"] if said.place.clouds and kind not in DARK else []
     facts += ["wet ground"] if scene.environment(0.0).wetness else []
     if seen := _list_scenery(staged):
@@ -109,7 +116,10 @@ def _plain(noun: str) -> str:
     return VARIANTS.get(noun, noun)
 
 
-def _tell_object(staged: StagedClip, index: int, views: Mapping[int, View]) -> str:
+def _tell_object(
+    staged: StagedClip, index: int, views: Mapping[int, View],
+    surfaces: Mapping[int, Counter[tuple[str, Texture]]],
+) -> str:  # fmt: skip
     """An object: number, colours, acts, way, place and visibility of its copies in view."""
     own = [one for one in staged.scene.actors if one.object_index == index]
     seen = [one for one in own if views[one.instance].pixels]
@@ -122,7 +132,8 @@ def _tell_object(staged: StagedClip, index: int, views: Mapping[int, View]) -> s
     first = max(seen, key=lambda one: views[one.instance].pixels)
     body = staged.boxes[index][own.index(first)]
     count = f"{len(seen)} {list_plurals(noun)[0]}" if len(seen) > 1 else noun
-    who = " and ".join(_list_colours([part for one in seen for part in one.own_parts(_REST)]))
+    surface = sum((surfaces[one.instance] for one in seen if one.instance in surfaces), Counter())
+    who = ", ".join(filter(None, [_tell_look(surface), _tell_size(first)]))
     facts = [_tell_acts(staged, first, body), _tell_place_of(staged, first, body)]
     facts += [_tell_side(staged, first, body), _tell_props(first)]
     facts += [_tell_visibility(staged, body, views[first.instance])]
@@ -130,16 +141,43 @@ def _tell_object(staged: StagedClip, index: int, views: Mapping[int, View]) -> s
     return f"{count} ({who}){which}: {'; '.join(filter(None, facts))}"
 
 
-def _list_colours(parts: Sequence[ModelPart]) -> list[str]:
-    """Names of the colours of most of a surface, the usual one first."""
+def _list_surfaces(staged: StagedClip) -> dict[int, Counter[tuple[str, Texture]]]:
+    """Instance id → colour and texture of its surface, counted over points of small pictures."""
+    size = SensorSize(_WIDTH, max(round(_WIDTH * staged.size.height / staged.size.width), 1))
     basic = np.cbrt([find_colour(name, SURFACES) for name in _BASIC])
+    found: dict[int, Counter[tuple[str, Texture]]] = {}
+    for time_s in staged.times[:: len(staged.times) // 2]:
+        world, shapes = world_and_shapes(staged.scene, time_s, size, shadows=False)
+        numbers = cast_centres(world, size).number
+        for number, count in zip(
+            *np.unique(numbers[numbers >= 0], return_counts=True), strict=True
+        ):
+            if (
+                shapes.mesh is None or shapes.mesh[number] is None
+            ):  # those have colours of their own
+                near = np.linalg.norm(basic - np.cbrt(shapes.colour[number]), axis=1)
+                look = _BASIC[int(np.argmin(near))], Texture(int(shapes.texture[number]))
+                found.setdefault(int(shapes.instance[number]), Counter())[look] += int(count)
+    return found
 
-    def is_called(name: str, part: ModelPart) -> bool:
-        return _BASIC[int(np.argmin(np.linalg.norm(basic - np.cbrt(part.colour), axis=1)))] == name
 
-    shares = {name: share_of(parts, partial(is_called, name)) for name in _BASIC}
-    ranked = sorted(shares, key=lambda one: (-shares[one], one))
-    return ranked[:1] + [one for one in ranked[1:_MOST_COLOURS] if shares[one] >= _MUCH]
+def _tell_look(surface: Counter[tuple[str, Texture]]) -> str:
+    """Colours of most of a surface, the usual one first, and a texture of the greater part."""
+    colours, textures = Counter[str](), Counter[Texture]()
+    for (colour, texture), count in surface.items():
+        colours[colour] += count
+        textures[texture] += count
+    (first, _), *others = colours.most_common(_MOST_COLOURS) or [("", 0)]
+    named = [first] + [name for name, count in others if count >= _MUCH * colours.total()]
+    mostly = [one.name.lower() for one, count in textures.items()
+              if one in _MATERIALS and count >= _HALF * textures.total()]  # fmt: skip
+    return ", ".join(filter(None, [" and ".join(named), *mostly]))
+
+
+def _tell_size(one: Actor) -> str:
+    """Its greatest extent, upwards or along the ground."""
+    along, height = max(one.model.length, one.model.width), one.model.height
+    return f"{_round(height)} m high" if height >= along else f"{_round(along)} m long"
 
 
 def _tell_acts(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
@@ -163,16 +201,16 @@ def _tell_way(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
         turned = np.unwrap([one.track.at(time_s).yaw for time_s in staged.fine_times])
         angle = float(np.ptp(turned))
         return f"turns by {math.degrees(angle):.0f}°" if angle >= _TURNS else "stays"
-    right, down, away = body.displacement
-    ways = [(abs(right), f"{abs(right):.2g} m to the {'right' if right > 0 else 'left'}"),
-            (abs(away), f"{abs(away):.2g} m {'away from' if away > 0 else 'towards'} the camera"),
-            (abs(down), f"{abs(down):.2g} m {'down' if down > 0 else 'up'}")]  # fmt: skip
+    names = (("to the left", "to the right"), ("up", "down"),
+             ("towards the camera", "away from the camera"))  # fmt: skip
+    ways = [(abs(way), f"{_round(abs(way))} m {name[int(way > 0)]}")
+            for way, name in zip(body.displacement, names, strict=True)]  # fmt: skip
     least = 0.3 * max(length for length, _ in ways)
     told = [words for length, words in ways if length >= max(least, 0.5 * _STAYS)]
     speed = path / max(staged.duration_s, 1e-9)
     net = float(np.linalg.norm(middle[-1] - middle[0]))
-    around = [] if net >= 0.3 * path else [f"along a way of {path:.2g} m that turns back"]
-    return f"goes {_join(around or told)} at {speed:.2g} m/s"
+    around = [] if net >= 0.3 * path else [f"along a way of {_round(path)} m that turns back"]
+    return f"goes {_join(around or told)} at {_round(speed)} m/s"
 
 
 def _tell_place_of(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
@@ -194,7 +232,7 @@ def _tell_place_of(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
     is_wet = place.has_surface and wet_share(staged.scene, body.middle[at][None, :2]) > 0.0
     ground = "water" if is_wet else "floor" if place.is_room else "ground"
     if low[2] > _GROUND_M:
-        return f"{low[2]:.2g} m above the {ground}"
+        return f"{_round(low[2])} m above the {ground}"
     return f"{'in' if is_wet and low[2] < -_GROUND_M else 'on'} the {ground}"
 
 
@@ -244,7 +282,7 @@ def _tell_camera(staged: StagedClip) -> str:
     first, last = cameras[0], cameras[-1]
     pitch = math.degrees(math.asin(float(np.clip(first.rotation[2][2], -1.0, 1.0))))
     has_ground = staged.scene.place.ground not in (Ground.NONE, Ground.UNDERWATER)
-    facts = [f"{first.position[2]:.2g} m above the ground"] if has_ground else []
+    facts = [f"{_round(first.position[2])} m above the ground"] if has_ground else []
     level = "level" if abs(pitch) < 3.0 else f"{abs(pitch):.0f}° {'up' if pitch > 0 else 'down'}"
     facts += [f"looks {level}"]
     moves = [*_list_camera_moves(cameras), *_list_zooms(first, last)]
@@ -258,7 +296,7 @@ def _list_camera_moves(cameras: Sequence[PosedCamera]) -> Iterator[str]:
     names = (("left", "right"), ("up", "down"), ("backward", "forward"))
     for length, (less, more) in zip(way, names, strict=True):
         if abs(length) >= max(_CAMERA_M, 0.2 * float(np.abs(way).max())):
-            yield f"goes {abs(length):.2g} m {more if length > 0 else less}"
+            yield f"goes {_round(abs(length))} m {more if length > 0 else less}"
     ahead = np.array([one.rotation[2] for one in cameras])
     yaw = np.unwrap(np.arctan2(ahead[:, 1], ahead[:, 0]))
     pitch = np.arcsin(np.clip(ahead[:, 2], -1.0, 1.0))
@@ -273,7 +311,12 @@ def _list_camera_moves(cameras: Sequence[PosedCamera]) -> Iterator[str]:
 def _list_zooms(first: PosedCamera, last: PosedCamera) -> Iterator[str]:
     ratio = last.focal / first.focal
     if max(ratio, 1.0 / ratio) >= _ZOOM:
-        yield f"zooms {'in' if ratio > 1.0 else 'out'} {max(ratio, 1.0 / ratio):.2g} times"
+        yield f"zooms {'in' if ratio > 1.0 else 'out'} {_round(max(ratio, 1.0 / ratio))} times"
+
+
+def _round(value: float) -> str:
+    """Two digits, or all before the point."""
+    return f"{value:.2g}" if abs(value) < 99.5 else f"{value:.0f}"
 
 
 def _join(words: Sequence[str]) -> str:
