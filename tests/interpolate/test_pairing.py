@@ -2,6 +2,7 @@
 
 import math
 import weakref
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -12,10 +13,12 @@ from tests.interpolate.motion.scenes import bar_pair
 
 from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
-from texvent.frames import Frame, Video
+from texvent.frames import Frame, MotionVectors, Video
 from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.pairing import pair_frames
+from texvent.pairs import motion_interpolation
 from texvent.pairs.scene_change import SceneChange
+from texvent.transfer import Transfer
 
 
 def pairs_of(video, options=None, *, threshold=0.2):
@@ -52,6 +55,15 @@ class Beating(Video):
     def at(self, t_us):
         level = 100.0 + 50.0 * math.cos(2.0 * math.pi * self.flicker_hz * t_us / 1e6)
         return Frame(np.full((4, 4), level), t_us, is_source=False)
+
+
+class Vectored(Beating):
+    """The same with vectors of no motion."""
+
+    def __iter__(self):
+        still = np.zeros((*self.size.shape, 2), np.float32)
+        for frame in super().__iter__():
+            yield replace(frame, motion=MotionVectors(still, still))
 
 
 def test_a_beat_that_the_frames_miss_is_rendered_between_them():
@@ -102,13 +114,20 @@ def test_times_strictly_increase_whatever_the_intervals(steps, count):
 
 
 @pytest.mark.parametrize("name", sorted(set(INTERPOLATORS.builtin) - {"none", "exact", "rife"}))
-def test_frames_that_are_asked_for_together_are_those_of_their_times_alone(name, stream):
+@pytest.mark.parametrize("transfer", Transfer)
+def test_frames_that_are_asked_for_together_are_those_of_their_times_alone(
+    name, transfer, stream, monkeypatch
+):
+    """However many are drawn at once; and their light is coded as that of their pair."""
+    pair = [replace(one, transfer=transfer) for one in bar_pair()]
     interpolator = INTERPOLATORS.load(name)(InterpolateConfig(interpolate=name), stream)
     times_us = list(range(30, 1000, 57))
-    found = list(interpolator.between(*bar_pair(), times_us))
-    assert [(one.t_us, one.is_source) for one in found] == [(t_us, False) for t_us in times_us]
+    monkeypatch.setattr(motion_interpolation, "DRAWN_BYTES", 3 * 4 * pair[0].pixels.size)
+    found = list(interpolator.between(*pair, times_us))
+    facts = [(one.t_us, one.is_source, one.transfer) for one in found]
+    assert facts == [(t_us, False, transfer) for t_us in times_us]
     for one in found:
-        (alone,) = interpolator.between(*bar_pair(), [one.t_us])
+        (alone,) = interpolator.between(*pair, [one.t_us])
         np.testing.assert_array_equal(one.pixels, alone.pixels)
 
 
@@ -137,10 +156,10 @@ def test_jumps_are_smeared_only_if_asked(flashing):
     assert len(run(flashing, options)) > 7
 
 
-@pytest.mark.parametrize("name", sorted(set(INTERPOLATORS.builtin) - {"rife", "motion"}))
+@pytest.mark.parametrize("name", sorted(set(INTERPOLATORS.builtin) - {"rife"}))
 def test_what_mixes_no_frames_looks_for_no_jumps(name, flashing):
     """A rendered flash is drawn at every instant; only what would smear a jump holds it."""
-    video = Beating(flashing.pixels[:3], flashing.times_us[:3])
+    video = Vectored(flashing.pixels[:3], flashing.times_us[:3])
     found = {pair.change for pair in pairs_of(video, InterpolateConfig(interpolate=name))}
     assert (found != {SceneChange.NONE}) == (name not in ("none", "exact"))
 

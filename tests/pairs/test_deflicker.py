@@ -12,6 +12,7 @@ from texvent.frames import Frame, Video
 from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.pairing import pair_frames
 from texvent.pairs.deflicker import PASSED_SHARE, global_gain, steady_frames
+from texvent.transfer import Transfer
 
 
 def clip(moving_texture, gains, *, speed=1.0, dtype=np.float32):
@@ -66,6 +67,17 @@ def test_a_pure_gain_is_measured_at_any_size(gain, height, width):
     image = np.random.default_rng(height * 71 + width).uniform(40, 160, (height, width))
     first, second = Frame(image, 0), Frame(image * gain, 1)
     assert global_gain(first, second) == pytest.approx(np.log(gain), abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("transfer", "level", "is_used"),
+    [(Transfer.GAMMA, 100, True), (Transfer.GAMMA, 251, False), (Transfer.GAMMA, 5, False),
+     (Transfer.LINEAR, 1e4, True), (Transfer.LINEAR, 2, True), (Transfer.LINEAR, 0.3, False)],
+)  # fmt: skip
+def test_levels_that_are_clipped_or_noise_follow_no_gain(transfer, level, is_used):
+    image = np.full((20, 30), level, np.float32)
+    first, second = (Frame(one, 0, transfer=transfer) for one in (image, image * 1.01))
+    assert global_gain(first, second) == pytest.approx(np.log(1.01) * is_used, abs=1e-5)
 
 
 @pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.float32])

@@ -12,6 +12,7 @@ from texvent._registry import REPRESENTATIONS
 from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.represent.named import (
+    WINDOW_OPTIONS,
     load_representation,
     option_names_of,
     represent,
@@ -62,6 +63,18 @@ def test_however_packets_are_cut_their_arrays_are_those_of_the_slices(name, even
         window = (start, start + length)
         alone = represent(name, part) if kind == "count" else represent_window(name, part, window)
         np.testing.assert_array_equal(one, alone)
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_an_option_goes_before_the_window(name):
+    events, known = random_events(2, 40, SMALL), option_names_of(load_representation(name))
+    window = (0, int(events.t[-1]) + 9)
+    filled = {one: window[end] for one, end in WINDOW_OPTIONS.items() if one in known}
+    for option in filled:
+        given = {option: int(events.t[20])}
+        found = represent_window(name, events, window, **given)
+        np.testing.assert_array_equal(found, represent(name, events, **{**filled, **given}))
+        assert not np.array_equal(found, represent(name, events, **filled))
 
 
 @pytest.mark.parametrize("name", ALL)

@@ -6,7 +6,14 @@ from hypothesis import strategies as st
 from texvent.errors import InputError
 from texvent.frames import Video
 from texvent.pipeline import video_to_events
-from texvent.run.rate_search import HIGHEST, LOWEST, MAX_STEPS, find_threshold, match_rate
+from texvent.run.rate_search import (
+    HIGHEST,
+    LOWEST,
+    MAX_STEPS,
+    find_threshold,
+    match_rate,
+    measure_rate,
+)
 from texvent.settings.resolution import resolve
 
 
@@ -31,10 +38,29 @@ def test_the_search_ends_within_two_percent():
     assert found.steps <= 9
 
 
-def test_the_search_takes_the_nearest_where_rates_jump():
-    found = find_threshold(lambda threshold: 1050.0 if threshold < 0.3 else 500.0, 1000.0)
-    assert found.ratio == pytest.approx(1.05)
-    assert found.steps == 9
+@given(
+    many=st.floats(1.03, 20.0),
+    few=st.floats(0.05, 0.97),
+    edge=st.floats(0.16, 0.25),
+    start=st.sampled_from([None, 0.2]),
+)
+def test_where_rates_jump_the_search_takes_the_side_that_is_nearer_by_its_ratio(
+    many, few, edge, start
+):
+    found = find_threshold(lambda one: 1000 * (many if one < edge else few), 1000.0, start=start)
+    nearer = min(many, few, key=lambda one: abs(np.log(one)))
+    assert found.ratio == pytest.approx(nearer)
+    assert not found.is_matched
+
+
+@pytest.mark.parametrize("seconds", [0.1, 0.3, 9.0])
+def test_a_rate_is_that_of_the_frames_up_to_the_first_one_so_much_later(seconds):
+    """Of a shorter clip, that of the whole."""
+    run, video = simulation(simulator="esim", noise_scale=None), moving_waves()
+    times = [frame.t_us for frame in video]
+    end_us = next((one for one in times if one >= seconds * 1e6), times[-1])
+    count = len(run.packets.collect().between(0, end_us))
+    assert measure_rate(run, seconds) == pytest.approx(count * 1e6 / end_us)
 
 
 @pytest.mark.parametrize("target", [1.0, 1e9])
@@ -91,10 +117,4 @@ def test_a_simulator_without_events_keeps_its_threshold():
     match = find_threshold(lambda threshold: 0, 1000, start=0.2)
     assert match.threshold == 0.2
     assert match.ratio == 0
-    assert not match.is_matched
-
-
-def test_a_jump_over_the_target_ends_with_the_closer_side():
-    match = find_threshold(lambda threshold: 1000 if threshold < 0.3 else 10, 900, start=0.2)
-    assert match.ratio == pytest.approx(1000 / 900)
     assert not match.is_matched

@@ -59,6 +59,16 @@ def test_what_counts_as_a_change_does(tmp_path, monkeypatch, change: Callable):
         check_change(tmp_path / f"{kind}-{end_bytes}", kind, change)
 
 
+@pytest.mark.parametrize("change", CHANGES)
+def test_below_a_folder_that_holds_no_images_every_file_counts(tmp_path, change: Callable):
+    for number, place in enumerate(("left/images", "right/images")):
+        (tmp_path / place).mkdir(parents=True)
+        (tmp_path / place / "0.png").write_bytes(bytes(range(number, number + 64)))
+    state = describe_state(tmp_path)
+    change(tmp_path / "right/images/0.png")
+    assert is_replaced(tmp_path, state) is CHANGES[change]
+
+
 def check_change(folder: Path, kind: str, change: Callable) -> None:
     folder.mkdir()
     for number, name in reversed([*enumerate(NAMES)]):

@@ -3,7 +3,7 @@
 import dataclasses
 import itertools
 from collections import Counter
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple, get_args, get_origin, get_type_hints
 
 import numpy as np
 import pytest
@@ -42,9 +42,9 @@ LOUD = {
     "noise_rate_hz": 20.0, "noise_intensity": 120.0, "shot_noise_rate_hz": 20.0,
     "leak_rate_hz": 5.0, "threshold_sigma": 0.03, "hot_pixel_fraction": 0.1,
     "initial_phase": "random", "timestamp_rule": "random",
-    "contrast_threshold_on": 0.2, "contrast_threshold_off": 0.2,
+    "contrast_threshold_on": 0.2, "contrast_threshold_off": 0.2, "scan_period_ns": 7_000_013,
 }  # fmt: skip
-"""Everything random, for the models that have it, and thresholds that flicker reaches."""
+"""Everything random and a scan, for the models that have it; thresholds that flicker reaches."""
 QUIET = {
     "shot_noise_rate_hz": 0.0, "threshold_sigma": 0.0, "leak_rate_decades": 0.0,
     "hot_pixel_fraction": 0.0, "initial_phase": "zero", "scan_period_ns": 0, "noise_rate_hz": 0.0,
@@ -99,6 +99,18 @@ def runs(*interpolators: str) -> Any:
     return pytest.mark.parametrize("run", chosen, ids="-".join)
 
 
+def other_choices() -> list[tuple[str, dict[str, Any]]]:
+    """Every model with each of its options that are choices at another value than usual."""
+    found = []
+    for name, model in MODELS.items():
+        usual = model.presets[FIRST[name]]
+        for option, kind in get_type_hints(type(usual)).items():
+            values = (False, True) if kind is bool else get_args(kind)
+            values = values if kind is bool or get_origin(kind) is Literal else ()
+            found += [(name, {option: one}) for one in values if one != getattr(usual, option)]
+    return found
+
+
 def simulate(frames: Any = CLIP, t_us: Any = TIMES_US, **options: Any) -> EventStream:
     """Events of frames, with their vectors where they are followed."""
     options = {**SOURCES[options["interpolate"]], **options}
@@ -137,6 +149,27 @@ def test_shifting_the_clip_shifts_the_events_and_nothing_else(run):
     for shift_us in (-3_000_017, 10**12):
         moved = dataclasses.replace(events, t=events.t + shift_us)
         assert simulate(t_us=TIMES_US + shift_us, **run.loud()) == moved
+
+
+@pytest.mark.parametrize(("model", "choice"), other_choices(), ids=str)
+def test_whatever_is_chosen_a_clip_that_begins_later_or_comes_frame_by_frame_fires_as_usual(
+    model, choice
+):
+    usual = MODELS[model].presets[FIRST[model]]
+    choice |= {"multi_event": False} if choice == {"timestamp_rule": "eq7"} else {}
+    options = Run(model, FIRST[model], "none").loud(**choice)
+    for name, (one, values) in getattr(usual, "idle_with", {}).items():
+        if choice.get(one) in values:
+            options.pop(name, None)
+    events = simulate(**options)
+    assert len(events) > 100
+    moved = dataclasses.replace(events, t=events.t + 10**12)
+    assert simulate(t_us=TIMES_US + 10**12, **options) == moved
+    with texvent.EventCamera((WIDTH, HEIGHT), **options) as camera:
+        for _ in range(2):
+            packets = [camera.step(*one) for one in zip(CLIP, TIMES_US, strict=True)]
+            assert EventStream.concat([*packets, camera.finish()]) == events
+            camera.reset()
 
 
 @runs("none", "blend", "flow")

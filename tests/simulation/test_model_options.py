@@ -3,6 +3,7 @@ import math
 import numpy as np
 import pytest
 
+from texvent._registry import SIMULATORS
 from texvent.options.values import plain
 from texvent.simulation.esim.config import EsimConfig
 from texvent.simulation.model_options import (
@@ -95,6 +96,20 @@ def test_on_and_off_keep_their_ratio_unless_it_is_given():
     assert even.contrast_threshold_off == pytest.approx(even.contrast_threshold_on)
     physical = with_contrast_threshold(PhysicalConfig(), 0.6, on_off_ratio=1.2)
     assert physical.contrast_threshold_on / physical.contrast_threshold_off == pytest.approx(1.2)
+
+
+@pytest.mark.parametrize("name", SIMULATORS.builtin)
+@pytest.mark.parametrize("ratio", [1.0, 2.0, 0.5])
+def test_eq4_counts_with_the_smaller_threshold_whichever_it_is(name, ratio):
+    model = SIMULATORS.load(name)
+    even = next(iter(model.presets.values()))
+    if not hasattr(even, "contrast_threshold_on"):
+        return
+    small, large = (with_contrast_threshold(even, one, on_off_ratio=1.0) for one in (0.2, 0.4))
+    mean = 0.2 * math.sqrt(max(ratio, 1 / ratio))
+    uneven = with_contrast_threshold(even, mean, on_off_ratio=ratio)
+    counted = [model(one).contrast_threshold for one in (small, uneven, large)]
+    assert counted == pytest.approx([counted[0], counted[0], 2.0 * counted[0]])
 
 
 def test_mismatch_of_on_and_off_is_independent():

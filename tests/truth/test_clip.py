@@ -155,6 +155,20 @@ def test_truth_that_cannot_be_is_found(stored: Files) -> None:
         read(stored, times_us=[*TIMES, 160_000]).depth(4)
 
 
+@pytest.mark.parametrize("part", ["flow", "depth", "ids", "poses", "visibility"])
+def test_rows_of_truth_that_are_fewer_than_its_frames_are_damage(stored: Files, part: str) -> None:
+    name = f"{part}.npy" if part == "visibility" else f"{part}.npz"
+    whole = np.load(io.BytesIO(stored[name]))
+    whole = {"": whole} if part == "visibility" else dict(whole)
+    for array in whole.keys() - {"t", "to_t"}:
+        fewer = {**whole, array: whole[array][:-1]}
+        file = io.BytesIO()
+        np.savez(file, **fewer) if array else np.save(file, fewer[""])
+        truth = read({**stored, name: file.getvalue()})
+        with pytest.raises(FileFormatError):
+            truth.occluded() if array == "occluded" else truth.check(SIZE)
+
+
 @pytest.mark.parametrize(
     ("name", "part"), [("boxes/bbox.npy", "boxes"), ("poses.txt", "poses"), ("depth", "depth")]
 )

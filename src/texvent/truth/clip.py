@@ -203,9 +203,11 @@ class ClipTruth:
         """
         frames = len(self)
         shapes = {"flow": (frames - 1, *size.shape, 2), "depth": (frames, *size.shape),
-                  "instance": (frames, *size.shape), "poses": (frames, 4, 4)}  # fmt: skip
+                  "instance": (frames, *size.shape), "poses": (frames, 4, 4),
+                  "intrinsics": (frames, 4)}  # fmt: skip
+        parts = {"instance": "ids", "intrinsics": "poses"}
         for name, shape in shapes.items():
-            if ("ids" if name == "instance" else name) in self.parts:
+            if parts.get(name, name) in self.parts:
                 value = getattr(self, name)
                 found = np.shape(value() if callable(value) else value)
                 self._refuse(found != shape, f"{name} has the shape {found}, not {shape}")
