@@ -17,6 +17,8 @@ from texvent_scenes.staging.actors import Actor, PlacedModel
 Place: TypeAlias = Callable[[Actor, float], PlacedModel]
 """A body at an instant, s, with its lamps as bright as they are then."""
 _REST = Pose(0.0, 0.0, 0.0, "stand")
+_LEAST_ROUND, _ONE_WAY = 0.15, 0.9
+"""Least rotation of a part that goes round, rad; least share of its rotation that is one way."""
 _STILL, _DARK, _MOST = 1e-3, 0.5, 0.5
 """Way of a part that does not move, in sizes of its body; share of its greatest light below which a
 lamp is off; share of a surface that makes its look."""
@@ -51,6 +53,22 @@ def is_moving_inside(
         at = [one.own_parts(one.pose(time_s)) for time_s in times]
         places = np.array([[part.to_body for part in each] for each in at])
         if np.ptp(places, axis=0).max() <= _STILL * one.size_m:
+            return False
+    return True
+
+
+def goes_round(own: Sequence[Actor], claim: Claim, times: Sequence[float], place: Place) -> bool:
+    """Whether a part of each rotates on and on, and does not only sway: the drum of a machine."""
+    for one in own:
+        at = [one.own_parts(one.pose(time_s)) for time_s in times]
+        axes = np.array([[part.to_body[:, :3] for part in each] for each in at])
+        axes /= np.maximum(np.linalg.norm(axes, axis=-2, keepdims=True), 1e-12)
+        steps = axes[1:] @ np.swapaxes(axes[:-1], -1, -2)
+        skew = steps - np.swapaxes(steps, -1, -2)  # 2 sin(angle) × axis
+        turns = np.stack([skew[..., 2, 1], skew[..., 0, 2], skew[..., 1, 0]], axis=-1)
+        net = 0.5 * np.linalg.norm(turns.sum(axis=0), axis=-1)
+        whole = 0.5 * np.linalg.norm(turns, axis=-1).sum(axis=0)
+        if not ((net >= _LEAST_ROUND) & (net >= _ONE_WAY * whole)).any():
             return False
     return True
 

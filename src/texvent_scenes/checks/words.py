@@ -54,6 +54,7 @@ from texvent_scenes.checks.lit import shows_lit_colour
 from texvent_scenes.checks.looks import has_look
 from texvent_scenes.checks.parts import (
     Place,
+    goes_round,
     has_colour,
     is_blinking,
     is_moving_inside,
@@ -83,6 +84,7 @@ _DONE = (
     "move",
     "tip",
     "turn",
+    "rounds",
     "begin",
 )
 """Length of a clip in which motions get so far that they are judged, s; claims of read motions."""
@@ -340,6 +342,7 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "reverse": goes_back, "fall": falls, "water": _is_in_water, "descend": descends,
     "land": lands, "aside": goes_aside, "along": goes_along,
     "grip": handles_by_hand, "camera": is_camera_so, "stop": stops, "move": moves, "tip": tips,
+    "rounds": _of_parts(goes_round),
     "turn": turns, "begin": begins, "near": _is_near, "pace": changes_pace,
     "in image": _stays_in_image,
     "sky": lambda staged, _: shows_sky(staged.scene, staged.times),

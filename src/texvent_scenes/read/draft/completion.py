@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from texvent_scenes.colours import rgb_of
 from texvent_scenes.models.activities import PERSON_NOUNS
+from texvent_scenes.models.places import is_room
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.draft.setting import leave_sky
@@ -141,6 +142,19 @@ def _tell_stars(draft: SceneDraft) -> None:
             draft.mark(token, "star shapes")
 
 
+def _tell_above_ground(draft: SceneDraft) -> None:
+    """Report what is named as below the ground and is drawn in the open: "a subway train"."""
+    place = draft.parts["place"].get("name", "")
+    below = word_set("things", "underground")
+    is_open = not (place and is_room(place))
+    for token in draft.tokens if is_open else ():
+        names_it = token.has("noun") and not below.isdisjoint(token.text.split())
+        if names_it and draft.shows(token):
+            noun = draft.fates[token.at]
+            noun = next(iter(token.nouns)) if noun == "shown" else noun
+            draft.mark(token, f"{noun} in the open")
+
+
 _LIGHT = 0.3
 """Greatest channel of a colour, linear, from which on a mark on it is black."""
 
@@ -250,6 +264,7 @@ _DECISIONS: tuple[Callable[[SceneDraft], object], ...] = (
     _stand_level,
     _tell_riders,
     _tell_stars,
+    _tell_above_ground,
     find_sources,
     leave_sky,
     _turn_marks,

@@ -223,8 +223,8 @@ class _Parser(GroupReader):
         ahead = 1 if self._token().has("articles") else 0
         token, after = self._token(ahead), self._token(ahead + 1)
         is_shot = token.has("shot") and not token.has("noun") and bool(ahead and after.has("verb"))
-        leads = {one.value.kind for one in token.verbs("ing") if one.value.who == "camera"}
-        is_led = bool(leads & _LED) and self._token(-1).has("shot", "style", "scene")
+        moves = {one.value.kind for one in token.verbs("ing") if one.value.who == "camera"}
+        is_led = bool(moves & _LED) and self._token(-1).has("shot", "style", "scene")
         if is_led and not (clause.has_subject or clause.verb):
             return replace(clause, about="camera")
         if not clause.has_subject and clause.verb is None and (token.has("camera") or is_shot):
