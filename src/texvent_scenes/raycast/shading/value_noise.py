@@ -102,8 +102,12 @@ def box_coverage(x: float, low: float, high: float, footprint: float) -> float:
 
 
 _STAR_CELLS = 26
-_CLOUD_SPEED = 0.012
-"""Drift of the clouds, in cloud heights per second."""
+_CLOUD_SPEED, _CLOUDS, _CLOUD_RISE, _CLOUD_STEP = 0.012, 2.0, 0.1, 0.02
+"""Drift of the clouds and how many there are, per cloud height and second; sine of the angle by
+which they are seen from the side at the horizon, as they tower; and of that from a point of one
+to what shades it."""
+_CLOUD_FOOT = 0.6
+"""Light of a cloud from below, where it is thick, as a share of that of its rims."""
 
 
 @jit(error_model="numpy", inner=True)
@@ -144,15 +148,23 @@ def _stars(x: float, y: float, z: float, pixel: float) -> float:
 
 
 @jit(error_model="numpy", inner=True)
-def _cloud_cover(instant: Record, direction: Colour, pixel: float, time: float) -> float:
-    """Share of the stars that cloud hides in a unit direction; it is seen less at the horizon."""
+def _clouds(
+    instant: Record, direction: Colour, pixel: float, time: float
+) -> tuple[float, float]:
+    """Share of what is behind that cloud hides in a unit direction, and that of its shaded foot."""
     x, y, z = direction
-    height = max(z, 0.02)
-    u = 1.1 * x / height + _CLOUD_SPEED * time
-    v = 1.1 * y / height + 0.4 * _CLOUD_SPEED * time
-    thickness = fractal_2d(u, v, 5, 1.1 * pixel / (height * height))
+    height = max(z, 0.0) + _CLOUD_RISE
+    scale = _CLOUDS / height
+    drift = _CLOUD_SPEED * time
+    footprint = scale * pixel / height
+    thickness = fractal_2d(scale * x + drift, scale * y + 0.4 * drift, 5, footprint)
     closed = smooth((instant.clouds - 0.85) / 0.15)  # no gap is left of a sky that is covered
-    return smooth((thickness + 1.7 * instant.clouds + closed - 0.95) / 0.7)
+    excess = thickness + 1.7 * instant.clouds + closed - 0.95
+    if excess <= 0.0:
+        return 0.0, 0.0
+    scale = _CLOUDS / (height + _CLOUD_STEP)
+    above = fractal_2d(scale * x + drift, scale * y + 0.4 * drift, 4, footprint)
+    return smooth(excess / 0.4), smooth(0.45 + 0.9 * (above - thickness) + 0.4 * thickness)
 
 
 @jit(error_model="numpy", inner=True)
@@ -167,9 +179,9 @@ def sky_colour(instant: Record, direction: Colour, pixel: float, time: float) ->
     """
     x, y, z = direction
     colour = sky_gradient(instant, z)
-    cover = 0.0
+    cover, shaded = 0.0, 0.0
     if instant.clouds > 0.0:
-        cover = _cloud_cover(instant, direction, pixel, time)
+        cover, shaded = _clouds(instant, direction, pixel, time)
     clear = 1.0 - cover if instant.stars > 0.0 else 1.0
     if instant.stars > 0.0:
         light = clear * instant.stars * _stars(x, y, z, pixel)
@@ -186,6 +198,7 @@ def sky_colour(instant: Record, direction: Colour, pixel: float, time: float) ->
         )
     if cover > 0.0 and z > 0.0:
         white = mix(triple(instant.sky_horizon), triple(instant.ambient), 0.5)
-        lit = along(white, triple(instant.sun_colour), 0.28)
-        colour = mix(colour, lit, 0.92 * cover * smooth((z - 0.01) / 0.12))
+        lit = along(white, triple(instant.sun_colour), 0.36)
+        lit = scaled(lit, 1.0 + (_CLOUD_FOOT - 1.0) * shaded)
+        colour = mix(colour, lit, 0.92 * cover * smooth((z - 0.005) / 0.12))
     return colour
