@@ -33,7 +33,8 @@ def read(prompt: str, *, assets: str | Path | None = None) -> Reading:
     """The scene that a sentence describes.
 
     What the sentence leaves open stays open: place, motions and light are decided when the scene
-    is generated. Nothing is drawn: what is out of view is not found here.
+    is generated. Nothing is drawn: what is out of view is not found here, and words of which only
+    the drawn scene tells whether it shows them ("four times") are `open_words`.
 
     Args:
         prompt: an English sentence, such as "a red car drives left past two trees at dusk".
@@ -60,7 +61,8 @@ def read(prompt: str, *, assets: str | Path | None = None) -> Reading:
     decided = complete(replace(to_description(scene), words=_words_of(reading)), nouns)
     if scene.light.kind is None and decided.light.kind in DARK:
         scene = replace(scene, light=replace(scene.light, kind=decided.light.kind))
-    return replace(reading, scene=scene, not_understood=(*reading.not_understood, *idle))
+    lost = tuple(one for one in (*reading.not_understood, *idle) if one not in reading.open_words)
+    return replace(reading, scene=scene, not_understood=lost)
 
 
 def _read(prompt: str, nouns: Mapping[str, Noun]) -> tuple[Reading, dict[str, str]]:
@@ -290,7 +292,7 @@ def understand(subject: Subject, nouns: Mapping[str, Noun]) -> SceneDescription:
     if isinstance(subject, Scene):
         return describe_scene(subject, nouns)
     reading, lost = _read(str(subject), nouns)
-    open_words = {one.word for one in reading.claims if one.is_open}
+    open_words = reading.open_words
     unread = tuple(one for one in reading.not_understood if one not in open_words)
     words = PromptReport(
         shown=reading.shown,

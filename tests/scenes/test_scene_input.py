@@ -144,3 +144,10 @@ def test_what_a_scene_does_not_show_of_a_sentence_is_not_understood(prompt):
     reading = texvent.read(prompt)
     assert set(reading.not_understood) == {*words.not_understood, *lost}
     assert not lost & {*reading.shown}
+
+
+@pytest.mark.parametrize("text", ["a man claps four times", "a dog runs and jumps again"])
+def test_words_left_to_the_drawn_scene_are_neither_lost_nor_shown(text):
+    reading = texvent.read(text)
+    assert reading.open_words
+    assert not {*reading.open_words} & {*reading.not_understood, *reading.shown}

@@ -49,6 +49,11 @@ class ReadPrompt(Protocol):
         """Words that had no effect on the scene."""
         ...
 
+    @property
+    def open_words(self) -> tuple[str, ...]:
+        """Words of which only the drawn scene tells whether it shows them."""
+        ...
+
 
 class ScenePackage(Protocol):
     """Functions of scenes, as a module that an entry point in `texvent.scene_packages` names."""

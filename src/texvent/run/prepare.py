@@ -164,7 +164,11 @@ def make_scene(prompt: Subject, settings: Settings) -> SceneValue:
     if not isinstance(prompt, str):
         return prompt
     reading = scenes().read(prompt, assets=getattr(settings.source, "assets", None))
-    report = PromptReport(substituted=reading.substituted, not_understood=reading.not_understood)
+    report = PromptReport(
+        substituted=reading.substituted,
+        not_understood=reading.not_understood,
+        not_shown=tuple(f"{one} (checked only in a drawn prompt)" for one in reading.open_words),
+    )
     for fault in report.warnings():
         warn(fault)
     return reading.scene

@@ -37,6 +37,12 @@ class Reading:
     dependences: tuple[Dependence, ...] = ()
     """Words that are uncertain where others are not understood."""
 
+    @property
+    def open_words(self) -> tuple[str, ...]:
+        """Words that are neither shown nor lost before the scene is staged."""
+        words = dict.fromkeys(one.word for one in self.claims if one.is_open)
+        return tuple(one for one in words if one not in self.shown)
+
 
 def _reach_speed(motion: dict[str, Any], noun: Noun) -> None:
     """Say by paces at which speed a motion ends: "accelerates from 10 km/h to 50 km/h"."""
