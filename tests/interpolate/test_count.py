@@ -139,10 +139,7 @@ def _counted(name, flicker_hz, known_px, per_pixel, cap, fixed, gains, **_):
     vectors = np.zeros((2, 2, 2), np.float32)
     vectors[1, 0] = 0.6 * known_px, -0.8 * known_px
     known = [MotionVectors(vectors), None] if gains else [None, MotionVectors(backward=vectors)]
-    pair = [
-        Frame(one, t_us, motion=motion)
-        for one, t_us, motion in zip((BLACK, WHITE), (0, 40_000), known, strict=True)
-    ]
+    pair = Frame(BLACK, 0, motion=known[0]), Frame(WHITE, 40_000, motion=known[1])
     stream = Beating(np.zeros((2, 4, 4), np.uint8), [0, 1000])
     stream.flicker_hz = flicker_hz
     blend = BlendInterpolator(InterpolateConfig(), stream)

@@ -30,7 +30,8 @@ def write_columns(path: Path, columns: dict[str, NDArray[Any]]) -> Path:
         case "parquet":
             arrow = pytest.importorskip("pyarrow")
             table = arrow.table({name: arrow.array(one) for name, one in columns.items()})
-            pytest.importorskip("pyarrow.parquet").write_table(table, path)
+            parquet = pytest.importorskip("pyarrow.parquet")
+            parquet.write_table(table, path, row_group_size=500)
         case _:
             mark = "," if kind == "csv" else " "
             rows = zip(*(one.tolist() for one in columns.values()), strict=True)

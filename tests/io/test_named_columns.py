@@ -30,7 +30,7 @@ def pairs(*choices: Iterable[Any]) -> list[tuple[Any, ...]]:
     return list(itertools.product(*choices))
 
 
-KINDS = ("npz", "rows.npy", "npy", "h5", "csv", "txt")
+KINDS = ("npz", "rows.npy", "npy", "h5", "parquet", "csv", "txt")
 
 
 @pytest.fixture(autouse=True)

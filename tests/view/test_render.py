@@ -13,6 +13,7 @@ from texvent.events import EventStream
 from texvent.frames import Video
 from texvent.sensor import SensorSize
 from texvent.view.render import RenderConfig, render_events
+from texvent.view.video_writer import VideoWriter
 
 SIZE = SensorSize(32, 24)
 
@@ -32,6 +33,19 @@ def test_a_video_shows_all_events_at_the_asked_rate(tmp_path):
         moving_dot(), tmp_path / "out.mp4", config=RenderConfig(render_fps=Fraction(24))
     )
     assert video_times(path) == [round(index * 1_000_000 / 24) for index in range(12)]
+
+
+@pytest.mark.parametrize(("fps", "speed"), [(30, 1.0), (24, 0.1), (Fraction(30_000, 1001), 3.0)])
+def test_without_a_window_a_video_shows_every_event_once(tmp_path, monkeypatch, fps, speed):
+    shown, every_us = [], np.arange(0, 500_000, 7)
+    events = EventStream(every_us % 32, every_us % 24, every_us, every_us % 2, SIZE)
+    monkeypatch.setattr(
+        VideoWriter, "show", lambda _, window, **__: shown.append(window.event_count)
+    )
+    config = RenderConfig(render_fps=Fraction(fps), speed=speed)
+    with pytest.raises(InputError):  # nothing was written
+        render_events(events, tmp_path / "out.mp4", config=config)
+    assert sum(shown) == len(events)
 
 
 def test_slow_motion_gives_proportionally_more_images(tmp_path):

@@ -14,8 +14,9 @@ from texvent.errors import InputError, OutputError
 from texvent.events import EventStream
 from texvent.frames import Frame
 from texvent.sensor import SensorSize
+from texvent.view import video_writer
 from texvent.view.video_writer import VideoWriter, check_image_output, open_image_sink
-from texvent.view.windows import WindowCollector
+from texvent.view.windows import EventWindow, WindowCollector
 
 SIZE = SensorSize(32, 24)
 Steps = list[tuple[Frame, EventStream]]
@@ -49,6 +50,22 @@ def test_mp4_times_are_the_source_frames_times_to_the_microsecond(tmp_path, step
     assert stream.duration * stream.time_base == Fraction(source[-1] - source[0], 1_000_000)
     assert (stream.codec_context.name, stream.codec_context.pix_fmt) == ("h264", "yuv420p")
     assert stream.codec_context.colorspace == 1, "tagged BT.709"
+
+
+def test_after_a_burst_the_scale_of_colours_falls_by_a_tenth_per_image(tmp_path, monkeypatch):
+    scales = []
+    draw = video_writer.compose_window
+    monkeypatch.setattr(
+        video_writer,
+        "compose_window",
+        lambda *one, ceiling, **more: scales.append(ceiling) or draw(*one, ceiling=ceiling, **more),
+    )
+    with VideoWriter(tmp_path / "out.mp4", size=SIZE, fps=Fraction(25)) as video:
+        for number, count in enumerate([2, 100, 1, 0, 1, 95, 1]):
+            counts = np.zeros((2, *SIZE.shape), np.int32)
+            counts[1, 3:9] = count
+            video.show(EventWindow(40_000 * number, 40_000 * (number + 1), counts))
+    assert scales == pytest.approx([2, 100, 90, 81, 72.9, 95, 85.5])
 
 
 def test_the_index_lies_in_front_so_that_browsers_start_at_once(tmp_path, steps):

@@ -171,8 +171,7 @@ def _video(
     if config.events_per_image is not None:
         windows = cut_counts(packets, size=packets.size, count=config.events_per_image)
     else:
-        window_us = config.window_us or max(1, round(step_us))
-        windows = cut_windows(packets, step_us=step_us, window_us=window_us)
+        windows = cut_windows(packets, step_us=step_us, window_us=config.window_us)
     video = VideoWriter(
         path,
         size=packets.size,

@@ -123,7 +123,7 @@ LONGEST_STILL_US = 40_000
 
 
 def cut_windows(
-    packets: Iterable[EventStream], *, step_us: Fraction, window_us: int
+    packets: Iterable[EventStream], *, step_us: Fraction, window_us: int | None
 ) -> Iterator[EventWindow]:
     """Windows `[s, s + window_us)` for s = first event, + step, + 2 steps, ...
 
@@ -134,13 +134,13 @@ def cut_windows(
         packets: events in time order.
         step_us: from one window's start to the next, µs; may be shorter than the window
             (windows overlap) or a fraction.
-        window_us: length of each window, µs.
+        window_us: length of each window, µs; None: up to the next, so that each event is in one.
 
     Raises:
         ConfigError: step or window is not above 0.
         InputError: a pause would be more than `MOST_EMPTY` windows.
     """
-    if step_us <= 0 or window_us <= 0:
+    if step_us <= 0 or (window_us is not None and window_us <= 0):
         raise ConfigError(
             f"window {window_us} µs, step {float(step_us):g} µs; both must be above 0"
         )

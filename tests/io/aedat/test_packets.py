@@ -1,6 +1,7 @@
 """Packets of AEDAT3.1 and AEDAT4 that are not as they seem."""
 
 import bz2
+import operator
 import struct
 import tracemalloc
 from collections.abc import Callable
@@ -10,12 +11,34 @@ import numpy as np
 import pytest
 
 from texvent.errors import FileFormatError, TexventWarning
+from texvent.events import EventStream
 from texvent.io.aedat import aedat4_container
-from texvent.io.aedat.aedat4_container import load_zstd, unpack_bz2, unpack_lz4, unpack_zstd
-from texvent.io.aedat.aedat4_tables import Table, read_events
+from texvent.io.aedat.aedat4_container import (
+    LZ4_CODE,
+    LZ4_NAME,
+    MAGIC,
+    PACKET_HEAD,
+    load_zstd,
+    pack_lz4,
+    unpack_bz2,
+    unpack_lz4,
+    unpack_zstd,
+)
+from texvent.io.aedat.aedat4_tables import (
+    UNKNOWN,
+    Table,
+    make_events,
+    make_header,
+    make_info,
+    read_events,
+)
 from texvent.io.files import load, save
+from texvent.io.reading import SeveralRecordingsError
+from texvent.sensor import SensorSize
 
 from ..format_cases import CASE_OF, STREAMS
+
+SIZE = SensorSize(9, 7)
 
 
 @pytest.mark.parametrize("turns", [(0, 0, 1, 1), (1, 0, 0, 0), (0, 3, 0, 0)])
@@ -85,6 +108,24 @@ def test_the_list_at_the_end_says_of_each_packet_what_it_holds(tmp_path, name):
     listed = Table.root(unpack_lz4(data[end:]), b"FTAB").columns(0, 5 * ["<i8"])
     assert [row for part in listed for row in zip(*part, strict=True)] == walked
     assert (at, sum(row[2] for row in walked)) == (end, len(events))
+
+
+@pytest.mark.parametrize("numbers", [(0, 1), (1, 0), (3, 1), (0, 7)])
+def test_of_several_streams_a_number_means_the_one_that_has_it(tmp_path, numbers):
+    recordings = [EventStream([n, 1], [n, 2], [5, 90 + n], [1, 0], SIZE) for n in (3, 4)]
+    begin, _, end = make_info(SIZE, LZ4_NAME, "{}").decode().partition('<node name="0"')
+    streams, _, end = end.rpartition("</node></dv>")
+    nodes = [f'<node name="{n}"{streams}'.replace("Info/0/", f"Info/{n}/") for n in numbers]
+    header = make_header(LZ4_CODE, UNKNOWN, f"{begin}{''.join(nodes)}</node></dv>".encode())
+    packed = [pack_lz4(make_events(one.columns())) for one in recordings]
+    packets = [PACKET_HEAD.pack(*one) for one in zip(numbers, map(len, packed), strict=True)]
+    path = tmp_path / "e.aedat4"
+    path.write_bytes(MAGIC + header + b"".join(map(operator.add, packets, packed)))
+    with pytest.raises(SeveralRecordingsError, match="2 recordings"):
+        load(path)
+    for number, events in zip(numbers, recordings, strict=True):
+        for name in (f"{number}", f"{number}:texvent"):
+            assert load(path, stream=name).equals(events)
 
 
 PACKINGS = {

@@ -1,11 +1,15 @@
 """Images of events, and colours of a flow."""
 
+import colorsys
+import math
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.frames import Frame
+from texvent.transfer import Transfer
 from texvent.view.drawing.event_image import (
     UNKNOWN,
     count_ceiling,
@@ -74,6 +78,14 @@ def test_frames_of_every_depth_are_shown_as_8_bit_rgb(pixels, expected):
     assert image[0].tolist() == [[value] * 3 for value in expected]
 
 
+@pytest.mark.parametrize("level", [0.0, 3.0, 60.0, 255.0, 900.0])
+def test_linear_light_is_shown_coded_as_srgb(level):
+    light = level / 255
+    coded = 12.92 * light if light <= 0.0031308 else 1.055 * light ** (1 / 2.4) - 0.055
+    shown = frame_image(Frame(np.full((2, 2), level, np.float32), 0, transfer=Transfer.LINEAR))
+    assert (shown == round(255 * min(coded, 1.0))).all()
+
+
 def test_the_default_is_the_papers_on_blue_off_red_on_white():
     paper = next(iter(PALETTES.values()))
     assert paper.name == "paper"
@@ -105,6 +117,20 @@ def test_in_dark_mode_no_background_is_light_and_events_stand_out(name):
 WHITE = (255, 255, 255)
 SHAPE = (61, 80)
 RADIUS = 6  # a fifth of the shorter side across
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_flow_is_coloured_pixel_by_pixel_by_its_angle_and_length(seed):
+    """The hue goes from red, to the right, through yellow to green as the motion turns down."""
+    flow = np.random.default_rng(seed).normal(0, 9, (30, 8, 2))
+    flow[0] *= 50
+    full = np.percentile(np.hypot(*np.moveaxis(flow, -1, 0)), 95)
+    image = draw_flow(flow)
+    for row, column in np.ndindex(20, 8):  # the wheel is below
+        x, y = flow[row, column]
+        hue, strength = math.atan2(y, x) / math.tau % 1.0, min(math.hypot(x, y) / full, 1.0)
+        colour = [255 * one for one in colorsys.hsv_to_rgb(hue, strength, 1.0)]
+        assert image[row, column].tolist() == pytest.approx(colour, abs=0.6)
 
 
 @pytest.mark.parametrize("direction", [(1, 0), (0, 1), (-1, 0), (0, -1)])

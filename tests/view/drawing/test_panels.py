@@ -1,10 +1,12 @@
+import itertools
+
 import numpy as np
 import pytest
 
 from texvent.sensor import SENSORS, SensorSize
 from texvent.view.drawing.canvas import blank, draw_label
 from texvent.view.drawing.palettes import PALETTES, get_palette
-from texvent.view.drawing.panels import SURROUND, PanelLayout, draw_legend
+from texvent.view.drawing.panels import SURROUND, PanelLayout, draw_legend, title_of
 
 SIZES = [
     SENSORS["davis346"].size,
@@ -13,6 +15,19 @@ SIZES = [
     SensorSize(3, 500),
     SensorSize(1001, 3),
 ]
+
+
+TITLES = {"prompt": "a cat", "title": "cats", "source": {"source": "of/cat.mp4"}, "input": "e.raw"}
+"""Fact → what it says, those that say most first."""
+
+
+@pytest.mark.parametrize("count", range(5))
+def test_a_recording_is_called_after_the_fact_that_says_most(count):
+    for names in itertools.permutations(TITLES, count):
+        first = next((one for one in TITLES if one in names), "")
+        expected = {"": "", "source": "cat.mp4"}.get(first) or TITLES.get(first, "")
+        assert title_of({one: TITLES[one] for one in names}) == expected
+        assert title_of({"prompt": " ", **{one: TITLES[one] for one in names}}) == expected
 
 
 @pytest.mark.parametrize("y", [0, 1, 19, 20, 21, 79])
