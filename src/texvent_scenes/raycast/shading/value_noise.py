@@ -148,9 +148,7 @@ def _stars(x: float, y: float, z: float, pixel: float) -> float:
 
 
 @jit(error_model="numpy", inner=True)
-def _clouds(
-    instant: Record, direction: Colour, pixel: float, time: float
-) -> tuple[float, float]:
+def _clouds(instant: Record, direction: Colour, pixel: float, time: float) -> tuple[float, float]:
     """Share of what is behind that cloud hides in a unit direction, and that of its shaded foot."""
     x, y, z = direction
     height = max(z, 0.0) + _CLOUD_RISE
