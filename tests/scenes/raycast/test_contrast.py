@@ -5,14 +5,13 @@ Photographs of skies have about .004, rooms .06; speckle noise would have far mo
 
 import cv2
 import numpy as np
-from tests.scenes.staged import stage_text
+import pytest
 
 from texvent.sensor import SensorSize
 from texvent.transfer import decode_srgb
-from texvent_scenes.raycast.ground_truth import ground_truth
-from texvent_scenes.raycast.render import render
+from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 
-SIZE = SensorSize(346, 260)
+SIZE, AT_US = SensorSize(346, 260), 500_000
 SKIES = (
     "a car on a road", "a dog runs across a meadow", "a bird flies over a lake", "a tree in a park",
     "a horse gallops along a beach", "a train leaves a station", "a tractor on a field",
@@ -25,12 +24,15 @@ ROOMS = (
 )  # fmt: skip
 
 
+pytestmark = pytest.mark.filterwarnings("ignore::texvent.TexventWarning")
+
+
 def gradients(text):
     """[H, W] |∂x ln I| of a picture smoothed over three pixels, and where there is sky."""
-    _, scene = stage_text(text)
-    light = decode_srgb(np.asarray(render(scene, 0.5, SIZE), np.float64) / 255.0)
+    video = ProceduralGenerator(ProceduralConfig(duration=1.0), size=SIZE).generate(text)
+    light = decode_srgb(np.asarray(video.at(AT_US).pixels, np.float64) / 255.0)
     grey = cv2.blur(light.mean(axis=-1), (3, 3))
-    sky = np.isinf(ground_truth(scene, 0.5, 0.51, SIZE).depth).astype(np.uint8)
+    sky = np.isinf(video.ground_truth(AT_US, AT_US + 10_000).depth).astype(np.uint8)
     inner = cv2.erode(sky, np.ones((5, 5), np.uint8)) > 0
     return np.abs(np.gradient(np.log(np.maximum(grey, 0.01)), axis=1)), inner
 
