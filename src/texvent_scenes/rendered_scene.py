@@ -89,6 +89,8 @@ class Texture(IntEnum):
     MIRROR = 52
     PRINT = 53
     """Headings, lines of letters and pictures in the second colour: labels, covers, adverts."""
+    BOOKS = 54
+    """Spines of books that stand side by side, of two hues and many shades."""
 
 
 FIRST_SURFACE = Texture.VARIATION
@@ -246,6 +248,8 @@ class Environment:
     """Whether a dark sky has stars."""
     wall_colour: Colour = (0.75, 0.69, 0.61)
     """Linear RGB of a room's walls."""
+    has_ceiling_panels: bool = False
+    """Whether a room's ceiling is hung: panels in a grid of rails, some of them luminous."""
     has_highlights: bool = False
     """Whether light above white is kept; else it is compressed, so that none is brighter."""
 

@@ -59,6 +59,8 @@ class PlaceModel:
     """Material of the ground; None = the usual one of its kind."""
     walls: Texture = Texture.PLASTER
     wall_colour: Colour = (0.75, 0.69, 0.61)
+    has_ceiling_panels: bool = False
+    """Whether a room's ceiling hangs in panels."""
     road_m: float = 3.4
     """Half the width of its road or river."""
     corridor_m: float = 0.0

@@ -116,6 +116,7 @@ INSTANT_RECORD = np.dtype(
         ("room_x", "f8"),  # half its side along x
         ("ceiling", "f8"),  # its height
         ("is_corridor", "i8"),
+        ("has_panels", "i8"),  # of the ceiling
         ("time", "f8"),
     ],
     align=True,
@@ -356,6 +357,7 @@ def describe_surroundings(instant: NDArray[Any], environment: Environment, shado
     instant["room"] = instant["room_x"] = environment.room_half_size
     instant["ceiling"] = 0.6 * environment.room_half_size
     instant["is_corridor"] = int(environment.corridor_half_width is not None)
+    instant["has_panels"] = int(environment.has_ceiling_panels)
     if environment.corridor_half_width is not None:
         instant["room_x"], instant["ceiling"] = environment.corridor_half_width, CORRIDOR_HEIGHT_M
     instant["time"] = environment.time_s

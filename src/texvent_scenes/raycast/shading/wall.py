@@ -6,7 +6,7 @@ import math
 
 from texvent.runtime.jit import jit
 from texvent_scenes.raycast.records import Record
-from texvent_scenes.raycast.shading.material import painted, patch_axes, sample_material
+from texvent_scenes.raycast.shading.material import Patch, painted, patch_axes, sample_material
 from texvent_scenes.raycast.shading.value_noise import (
     box_coverage,
     detail_fade,
@@ -30,6 +30,13 @@ _DOOR_EVERY_M, _LIGHT_EVERY_M = 2.9, 2.6
 _DOOR_FRAME, _LEAF, _HANDLE = (0.2, 0.19, 0.17), (0.32, 0.16, 0.07), (0.6, 0.6, 0.62)
 """Colours of the doors of corridors; they and the luminous panels above follow one another so."""
 _LIGHT = (7.0, 7.0, 6.8)
+_TILE_M, _RAIL_SHARE, _LIT_EVERY = 0.6, 0.05, 4
+"""Side of the panels of a ceiling that hangs in them, m, share of it that is a rail, and of how
+many one shines, along and across."""
+_BUMPER_M = 0.82
+"""Height of the rail along the walls of corridors, m."""
+_BOARD, _BOARD_M, _NOTE_M = (0.3, 0.2, 0.11), (0.55, 0.38), 0.2
+"""Colour of the notice boards of corridors, half their sides, and the distance of their notes."""
 _CEILING = (1.7, 1.69, 1.64)
 """White, and lit from below by what floor and walls send back, which is not traced."""
 
@@ -145,6 +152,79 @@ def _panel_share(point: Vector, feet: Colour) -> float:
 
 
 @jit(error_model="numpy", inner=True)
+def _hung(colour: Colour, place: tuple[float, float], feet: Colour) -> Colour:
+    """A ceiling of panels in a grid of rails, each a little lighter or darker than the next."""
+    u, v = place[0] / _TILE_M, place[1] / _TILE_M
+    shade = lattice(int(u // 1.0), int(v // 1.0), 41) - 0.5
+    wide, deep = feet[0] / _TILE_M, feet[1] / _TILE_M
+    colour = scaled(colour, 1.0 + 0.16 * shade * detail_fade(max(wide, deep)))
+    if lattice(int(u // 1.0), int(v // 1.0), 45) < 0.1:  # an air vent: frames in one another
+        out = max(abs(_from_middle(u - 0.5, 1.0)), abs(_from_middle(v - 0.5, 1.0)))
+        slot = box_coverage(out % 0.1, 0.05, 0.1, max(wide, deep))
+        slot = 0.5 + (slot - 0.5) * detail_fade(max(wide, deep) / 0.1)
+        colour = scaled(colour, 1.0 - (0.7 * slot if out < 0.4 else 0.0))
+    half = 0.5 * _RAIL_SHARE
+    across = box_coverage(_from_middle(u, 1.0), -half, half, wide)
+    along = box_coverage(_from_middle(v, 1.0), -half, half, deep)
+    return scaled(colour, 1.0 - 0.6 * max(across, along))
+
+
+@jit(error_model="numpy", inner=True)
+def _lit_share(point: Vector, feet: Colour) -> float:
+    """Share of a pixel of a ceiling within one of its luminous panels, two panels long."""
+    every = _LIT_EVERY * _TILE_M
+    x = _from_middle(point[0] - 0.5 * _TILE_M, every)
+    y = _from_middle(point[1] - 1.0 * _TILE_M, every)
+    return _box_share((x, y), (0.46 * _TILE_M, 0.96 * _TILE_M), feet)
+
+
+@jit(error_model="numpy", inner=True)
+def _notices(wall: Colour, at: tuple[float, float], feet: Colour, cell: int) -> Colour:
+    """A wall with a board of paper notes; `at` is metres from its middle."""
+    colour = mix(wall, _DARK_FRAME, _box_share(at, (_BOARD_M[0] + 0.03, _BOARD_M[1] + 0.03), feet))
+    colour = mix(colour, _BOARD, _box_share(at, _BOARD_M, feet))
+    i, j = math.floor(at[0] / _NOTE_M), math.floor(at[1] / (1.25 * _NOTE_M))
+    shape = lattice(int(i), int(j), 43 + cell)
+    inside = (at[0] - _NOTE_M * (i + 0.5), at[1] - 1.25 * _NOTE_M * (j + 0.5))
+    half = (0.07 + 0.02 * shape, 0.09 + 0.03 * lattice(int(j), int(i), 44 + cell))
+    note = (0.75 - 0.3 * shape, 0.72 - 0.2 * shape, 0.66 - 0.4 * shape)
+    share = _box_share(inside, half, feet) * _box_share(at, _BOARD_M, feet)
+    lines = box_coverage((inside[1] + 1.0) % 0.03 - 0.015, -0.006, 0.006, feet[1])
+    note = scaled(note, 1.0 - 0.5 * lines * _box_share(inside, (0.055, 0.07), feet))
+    return mix(colour, note, share if shape < 0.85 else 0.0)
+
+
+@jit(error_model="numpy", inner=True)
+def _between_doors(wall: Colour, place: tuple[float, float], feet: Colour, side: int) -> Colour:
+    """A side wall of a corridor with a rail, and notice boards between most of its doors."""
+    rail = box_coverage(place[1], _BUMPER_M, _BUMPER_M + 0.14, feet[1])
+    wall = mix(wall, _DOOR_FRAME, rail)
+    cell = math.floor(place[0] / _DOOR_EVERY_M)
+    number = 2 * int(cell) + side
+    if lattice(number, 0, 42) > 0.7:
+        return wall
+    at = (place[0] - _DOOR_EVERY_M * (cell + 0.5), place[1] - 1.5)
+    return _notices(wall, at, feet, number)
+
+
+@jit(error_model="numpy", inner=True)
+def _ceiling_look(
+    instant: Record, point: Vector, axes: Patch, feet: Colour
+) -> tuple[Colour, Vector]:
+    """Reflectance and normal of a ceiling: plaster, or panels of which some shine."""
+    sample = sample_material(instant, _PLASTER, point[0], point[1], axes, 1.0)
+    look = painted(sample, _CEILING, scaled(_CEILING, 0.9), 1.0)
+    colour = look[0]
+    if instant.has_panels:
+        colour = _hung(colour, (point[0], point[1]), feet)
+    if instant.is_corridor:
+        colour = mix(colour, _LIGHT, _panel_share(point, feet))
+    elif instant.has_panels:
+        colour = mix(colour, _LIGHT, _lit_share(point, feet))
+    return colour, (-look[1], -look[2], -1.0)
+
+
+@jit(error_model="numpy", inner=True)
 def _door(wall: Colour, at: tuple[float, float], feet: Colour, face: int) -> Colour:
     """A wall with a closed door with a handle; at the end of a corridor with two panes."""
     half, tall = (0.46, 1.03) if face == 0 else (0.8, 1.05)
@@ -152,6 +232,9 @@ def _door(wall: Colour, at: tuple[float, float], feet: Colour, face: int) -> Col
     colour = mix(wall, _DOOR_FRAME, _box_share(low, (half + 0.07, tall + 0.07), feet))
     colour = mix(colour, _LEAF, _box_share(low, (half, tall), feet))
     if face == 0:
+        panel = (at[0], abs(at[1] - 1.02) - 0.5)
+        colour = scaled(colour, 1.0 - 0.55 * _box_share(panel, (0.33, 0.4), feet))
+        colour = mix(colour, _LEAF, _box_share(panel, (0.3, 0.37), feet))
         handle = (at[0] - half + 0.1, at[1] - 1.05)
         plate = (at[0] - half - 0.25, at[1] - 1.6)
         colour = mix(colour, _FRAME, _box_share(plate, (0.1, 0.06), feet))
@@ -177,13 +260,8 @@ def wall_look(
     axes = patch_axes((right[a], right[b], down[a], down[b]))
     side = -1.0 if face == 2 or point[face] > 0.0 else 1.0
     if face == 2:
-        sample = sample_material(instant, _PLASTER, point[0], point[1], axes, 1.0)
-        look = painted(sample, _CEILING, scaled(_CEILING, 0.9), 1.0)
-        colour = look[0]
-        if instant.is_corridor:
-            feet = (abs(right[0]) + abs(down[0]), abs(right[1]) + abs(down[1]), 0.0)
-            colour = mix(colour, _LIGHT, _panel_share(point, feet))
-        return colour, (-look[1], -look[2], -1.0)
+        feet = (abs(right[0]) + abs(down[0]), abs(right[1]) + abs(down[1]), 0.0)
+        return _ceiling_look(instant, point, axes, feet)
     plain = triple(instant.wall_colour)
     sample = sample_material(instant, instant.wall_surface, point[a], point[b], axes, 1.0)
     look = painted(sample, plain, scaled(plain, 0.82), 1.0)
@@ -191,6 +269,8 @@ def wall_look(
     colour = look[0]
     if instant.is_corridor:
         every = _DOOR_EVERY_M if face == 0 else 1e3
+        if face == 0:
+            colour = _between_doors(colour, (point[1], point[2]), feet, int(side > 0.0))
         colour = _door(colour, (_from_middle(point[a], every), point[2]), feet, face)
     elif instant.wall_surface not in (_STONE, _CLOTH):
         place = (point[a], point[2])

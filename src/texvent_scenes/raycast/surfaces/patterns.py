@@ -15,6 +15,7 @@ from texvent_scenes.raycast.surfaces.fields import (
     fractal,
     grid,
     hashed,
+    hashed_row,
     noise,
     smooth_step,
     strokes,
@@ -196,6 +197,23 @@ def print_() -> Pattern:
     ink = np.where(kind < 0.4, words, np.where(kind < 0.65, heading, pictured * (kind < 0.85)))
     inside = (columns % 64 >= 4) & (rows % 64 >= 4)
     return Pattern(exponential(0.05 * fractal(4, 5, 375)), ink * inside, 0.0 * ink)
+
+
+def books() -> Pattern:
+    """Spines side by side, each of one shade, with a title and bands across it."""
+    ends = np.cumsum(1.0 + 2.0 * hashed_row(34, 411))
+    place = (np.arange(SIDE) + 0.5) / SIDE * ends[-1]
+    book = np.searchsorted(ends, place)
+    starts = np.concatenate([[0.0], ends])
+    gap = np.minimum(place - starts[book], ends[book] - place) < 0.18
+    _, y = grid()
+    shade, hue, middle = (hashed_row(34, salt)[book] for salt in (412, 413, 414))
+    title = np.abs((3.0 * (y - middle)) % 1.0 - 0.5) < 0.13
+    bands = np.abs((6.0 * (y - middle)) % 1.0 - 0.5) < 0.05
+    light = 0.9 * title * (hue > 0.3) + 0.5 * bands * (hue < 0.6)
+    factor = exponential(1.5 * (shade - 0.5) + light * (0.8 - shade) - 1.2 * gap)
+    round_ = np.broadcast_to(1.0 - gap, (SIDE, SIDE))
+    return Pattern(factor, np.broadcast_to(hue > 0.5, (SIDE, SIDE)).astype(float), round_)
 
 
 def _half() -> Field:

@@ -224,6 +224,7 @@ def build_environment(
         and (said.clouds or 0.0) < _STARLESS,
         wall_surface=place.walls,
         wall_colour=place.wall_colour,
+        has_ceiling_panels=place.has_ceiling_panels,
         road_crossings=np.array(road.crossings, dtype=np.float64).reshape(-1, 3),
     )
     return AnimatedEnvironment(base, description.light.flicker_hz, description.light.wave)
