@@ -58,8 +58,10 @@ def test_the_span_includes_both_its_ends_and_the_first_images_are_skipped():
     frames = [frame(0, t_us) for t_us in range(0, 60, 10)]
     spanned = score_images(images, frames, ScoreCollector(MSE, span_us=(20, 40)))
     assert spanned.t_us == [20, 30, 40]
-    skipped = score_images(images, frames, ScoreCollector(MSE, span_us=(0, 40), skip=3))
-    assert skipped.t_us == [30, 40]
+    for first_us, count in ((0, 3), (20, 3), (20, 2), (20, 4)):  # of the recording, not of the span
+        scores = ScoreCollector(MSE, span_us=(first_us, 40), skip=count)
+        skipped = score_images(images, frames, scores)
+        assert skipped.t_us == [one for one in (0, 10, 20, 30, 40)[count:] if one >= first_us]
 
 
 def test_where_nothing_counts_an_error_says_so():
