@@ -95,3 +95,25 @@ def test_a_shape_that_reaches_behind_the_camera_is_drawn_where_it_is_in_front():
     image = render(scene, 0.0, SMALL)
     assert (image[:, -1] > 150.0).all()
     np.testing.assert_allclose(linear(image)[:, 0], BACKDROP, atol=1e-6)
+
+
+@pytest.mark.parametrize("half_width_m", [None, 1.5])
+@pytest.mark.parametrize("axis", [0, 1])
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_a_floor_is_darker_along_every_wall_of_rooms_and_corridors(half_width_m, axis, side):
+    light = np.full(3, 0.6, np.float32)
+    room = replace(
+        day(Ground.FLOOR), sun_colour=np.zeros(3, np.float32), ambient=light, room_half_size=4.0,
+        corridor_half_width=half_width_m, ground_colour=light, ground_second_colour=light,
+        wall_colour=np.full(3, 0.02, np.float32),
+    )  # fmt: skip
+    wall_m = 4.0 if axis or half_width_m is None else half_width_m
+    levels = []
+    for gap_m in (0.08, 1.2):
+        at = np.zeros(2)
+        at[axis] = side * (wall_m - gap_m)
+        eye = (at[0], at[1] - 0.05, 1.2)
+        scene = HandScene(camera_at=lambda _, eye=eye, at=at: look_at(eye, (*at, 0.0)),
+                          environment_base=room)  # fmt: skip
+        levels.append(linear(render(scene, 0.0, SensorSize(33, 33)))[12:21, 15:18].mean())
+    assert levels[0] < 0.9 * levels[1]

@@ -94,3 +94,11 @@ def test_what_comes_down_through_a_rim_stays_in_it_and_in_sight(row):
     tall = (places[-1, 2] + 0.5 * body.model.height) / body.model.height
     is_container = trait_value("container", into) is not None
     assert tall == pytest.approx(0.6, abs=0.01) if is_container else tall <= 0.0
+
+
+@pytest.mark.parametrize("place", ["", "kitchen", "living room"])
+@pytest.mark.parametrize(("small", "into"), [("apple", "bowl"), ("egg", "basket"), ("cat", "box")])
+def test_one_sees_into_a_container_from_above_wherever_it_is(small, into, place):
+    pair = thing(small, ("stand",)), thing(into, ("stand",))
+    scene = stage(*pair, relations=(("in", 0, 1),), place=place)
+    assert scene.camera(0.0).rotation[2][2] < -0.5
