@@ -1,4 +1,5 @@
 import dataclasses
+from pathlib import Path
 
 import pytest
 
@@ -8,6 +9,7 @@ from texvent.frames import Video
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.simulation.physical.cameras import PRESETS
+from texvent.simulation.physical.config import PhysicalConfig
 
 from .conftest import TRUTH, moving_blobs, record
 
@@ -81,6 +83,26 @@ def test_too_few_events_keep_every_option_of_the_circuit(recording):
 def write(fit, path, **options):
     lines = describe_fit(fit, "a test")
     return write_preset(fit.config, lines, path, size=SensorSize(32, 24), **options), lines
+
+
+OTHER = {
+    "gamma": 1.3, "balance": 11.0, "contrast_threshold": 0.22, "on_off_ratio": 1.2,
+    "threshold_sigma": 0.04, "initial_phase": "random", "cutoff_hz": 90.0, "cutoff_limit_hz": 80.0,
+    "refractory_period_us": 70, "leak_rate_hz": 0.3, "leak_rate_decades": 0.2,
+    "noise_curve": "3:2 90:1", "noise_scale": 0.7, "noise_decades": 0.15,
+    "noise_on_fraction": 0.4, "hot_pixel_fraction": 0.01, "hot_pixel_rate_hz": 9.0,
+    "sensor_seed": 5, "scan_period_ns": 900, "threshold_map": Path("map.npz"),
+}  # fmt: skip
+"""Every option at a value that no preset has."""
+
+
+def test_a_preset_keeps_every_option_but_those_that_belong_to_a_run(tmp_path):
+    assert OTHER.keys() == {one.name for one in dataclasses.fields(PhysicalConfig)}
+    path = write_preset(PhysicalConfig(**OTHER), [], tmp_path / "p.toml", size=SensorSize(32, 24))
+    read, usual = resolve("simulate", {}, config=path).simulate, PhysicalConfig()
+    for name, value in OTHER.items():
+        of_run = name in ("gamma", "sensor_seed")
+        assert getattr(read, name) == (getattr(usual, name) if of_run else value), name
 
 
 def test_a_preset_is_a_config_file_of_a_run(fit, tmp_path):

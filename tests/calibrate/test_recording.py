@@ -20,11 +20,20 @@ from texvent.simulation.physical.cameras import PRESETS
 from .conftest import TRUTH, moving_blobs
 
 
-def test_halves_are_what_frames_and_events_share(recording):
-    first, second = recording.halves()
-    assert first.start_us >= 100_000
-    assert first.stop_us == second.start_us
-    assert second.stop_us == min(recording.frames.times_us[-1], recording.events.t[-1])
+@pytest.mark.parametrize("frames_us", [(0, 10**6), (70_000, 10**6 + 1), (0, 700_000)])
+@pytest.mark.parametrize("events_us", [(0, 10**6), (250_000, 900_001), (3, 650_000)])
+def test_halves_are_what_frames_and_events_share_once_pixels_are_warm(frames_us, events_us):
+    """Pixels of the model are warm 0.1 s after the first frame, those of the sensor at once."""
+    frames = Video(np.zeros((2, 4, 4), np.uint8), frames_us)
+    events = EventStream([0, 0], [0, 0], events_us, [0, 1], SensorSize(4, 4))
+    first, second = CalibrationRecording(frames, events, InterpolateConfig()).halves()
+    assert first.start_us == max(frames_us[0] + 100_000, events_us[0])
+    assert second.stop_us == min(frames_us[1], events_us[1])
+    assert first.stop_us == second.start_us == (first.start_us + second.stop_us) // 2
+
+
+def test_the_first_seconds_of_a_span_are_at_most_the_whole(recording):
+    first, _ = recording.halves()
     assert first.first(0.25) == TimeSpan(first.start_us, first.start_us + 250_000)
     assert first.first(99.0) == first
     assert first.first(0.25).seconds == 0.25
