@@ -303,7 +303,7 @@ class Place:
     """Direction of the road, degrees anticlockwise from x; left out: that of its first vehicle."""
     crossing_m: tuple[Coordinate, Coordinate] | None = None
     """Crossing of the roads, at right angles, m; off the road, a point on the other one. Left out:
-    7 m along the road from its first vehicle, or where that turns."""
+    where its first vehicle turns, or in view, as near as can be to 7 m along the road from it."""
     is_empty: bool = False
     """Whether scenery and furniture are left out; walls with their windows and pictures, lines on
     the ground, tracks and `backdrops` stay."""

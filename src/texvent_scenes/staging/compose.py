@@ -51,6 +51,7 @@ from texvent_scenes.staging.surroundings.road_line import (
     find_road,
     lay_across,
     list_flyers_above,
+    show_crossing,
 )
 from texvent_scenes.staging.surroundings.scenery import scatter
 from texvent_scenes.staging.tracks.phases import schedule
@@ -157,7 +158,7 @@ def compose_scene(
         description, actors, place, seed=seed, aspect=size.height / size.width,
         duration_s=duration_s, travel=travel,
     )  # fmt: skip
-    view = _describe_view(description, ground, camera_path, actors, duration_s)
+    view = _describe_view(description, ground, camera_path, actors, duration_s, size)
     if ground.has_road:
         actors = lay_across(actors, view.road)
     view = view if travel is None else replace(view, road=travel.road, travel=travel)
@@ -278,12 +279,17 @@ def _describe_view(
     path: CameraTrack,
     actors: Sequence[Actor],
     duration_s: float,
+    size: SensorSize,
 ) -> ViewClearance:
     times = [duration_s * step / (VIEW_INSTANTS - 1) for step in range(VIEW_INSTANTS)]
     if place.has_shore:
         road = water_line(place, actors, path, list_flyers_above(description, actors))
     else:
         road = find_road(description, place, actors, float(path.framing.target[1]))
+        standing = [one for one in actors if not one.is_mover]
+        spots = np.array([one.middle(0.0)[:2] for one in standing]).reshape(-1, 2)
+        cameras = [path.at(t) for t in times]
+        road = show_crossing(road, description.place, cameras, size, spots, place.road_m)
     has_strip = place.has_road or place.ground is Ground.RIVER
     points = [
         np.vstack([actor.corners(t)[::2] for actor in actors]) if actors else np.zeros((0, 3))

@@ -8,6 +8,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from texvent.camera import PosedCamera, project
+from texvent.sensor import SensorSize
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.places import PlaceModel
 from texvent_scenes.models.tables import nouns_with
@@ -31,6 +33,10 @@ USUAL_S = 2.0
 """End of a usual clip, s, at which moving bodies are looked at again."""
 _CROSSING_AHEAD_M = 7.0
 """Distance of a crossing from the camera, m."""
+_CROSSED_M, _FARTHEST_M = 5.0, 40.0
+"""Reach of a crossing, m, and the farthest along the road at which it is put into the image."""
+_ENDS = ((0, 0, 0), (1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0))
+"""Sides of a crossing, of which most are to be seen."""
 _DRIVEN_M_S, _CAB_M, _LEVEL, _ALONG = 2.5, 3.5, 0.25, 0.45
 """Least speed of a camera that is driven, m/s; its greatest height, m; and slope of its view; sine
 of the greatest angle of others to a road that they go along."""
@@ -130,6 +136,39 @@ def with_crossing(road: RoadLine, said: Place, usual_m: float) -> RoadLine:
         return road
     x, y, angle = road.at(usual_m)
     return replace(road, crossings=((x, y, angle + 0.5 * math.pi),))
+
+
+def show_crossing(
+    road: RoadLine, said: Place, cameras: Sequence[PosedCamera], size: SensorSize,
+    bodies: Float64Array, half_m: float,
+) -> RoadLine:  # fmt: skip
+    """The road with a crossing whose place is open where most of it is seen.
+
+    Args:
+        road: the road.
+        said: what is said of the place.
+        cameras: at some instants.
+        size: of the image, pixels.
+        bodies: [n, 2] what stands where no road should cross, m.
+        half_m: half the width of the road, m.
+    """
+    usual = with_crossing(replace(road, crossings=()), said, _CROSSING_AHEAD_M)
+    if said.road != "crossing" or said.crossing_m is not None or road.crossings != usual.crossings:
+        return road
+
+    def rank(along_m: float) -> tuple[int, int, float]:
+        x, y, _ = road.at(along_m)
+        points = np.array([x, y, 0.0]) + _CROSSED_M * np.array(_ENDS)
+        seen = [project(one, size, points) for one in cameras]
+        edge = [size.width, size.height]
+        inside = [((one[:, :2] >= 0.0) & (one[:, :2] < edge)).all(axis=1) for one in seen]
+        most = max(int((a & (b[:, 2] > 0.0)).sum()) for a, b in zip(inside, seen, strict=True))
+        other = RoadLine(road.angle + 0.5 * math.pi, (x, y))
+        blocked = int((np.abs(other.across(bodies)) < half_m).sum()) if len(bodies) else 0
+        return -min(most, len(_ENDS) - 1), blocked, abs(along_m - _CROSSING_AHEAD_M)
+
+    best = min(np.arange(-_FARTHEST_M, _FARTHEST_M + 1.0), key=rank)
+    return with_crossing(replace(road, crossings=()), said, float(best))
 
 
 def list_flyers_above(description: SceneDescription, actors: Sequence[Actor]) -> list[Actor]:
