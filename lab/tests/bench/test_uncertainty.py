@@ -8,6 +8,7 @@ from hypothesis.extra import numpy as arrays
 
 from texvent_lab.bench.uncertainty import (
     LEAST_WINDOWS,
+    Mean,
     average_blocks,
     bootstrap_interval,
     independent_block_size,
@@ -53,6 +54,15 @@ def test_windows_that_follow_each_other_are_averaged_and_others_are_not():
     assert independent_block_size(np.repeat(rng.normal(size=32), 4)) == 4
     # A drift never ends: the blocks run out.
     assert 16 // independent_block_size(np.arange(16.0)) < LEAST_WINDOWS
+
+
+@given(VALUES, st.lists(st.booleans(), min_size=20, max_size=20), st.booleans())
+def test_a_mean_is_that_of_all_defined_values_whatever_the_blocks(values, gaps, is_in_sequence):
+    values = np.where(gaps[: len(values)], math.nan, np.cumsum(values))
+    if np.isnan(values).all():
+        return
+    mean = Mean.of(values, is_in_sequence=is_in_sequence)
+    assert mean.mean == pytest.approx(np.nanmean(values), abs=1e-9)
 
 
 PAIRS = arrays.arrays(

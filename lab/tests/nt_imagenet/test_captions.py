@@ -49,6 +49,7 @@ def test_lengths_are_those_of_the_paper(words: int, is_fine: bool) -> None:
 )
 def test_refusals_are_told_from_descriptions(caption: str, is_refusal: bool) -> None:
     assert check(caption).is_refusal == is_refusal
+    assert check(caption.replace("'", "’")).is_refusal == is_refusal
 
 
 def test_duplicates_differ_in_case_and_punctuation_alone() -> None:
