@@ -14,10 +14,11 @@ from tests.examples import examples
 from texvent.errors import ConfigError, InputError, OutputError, TexventWarning
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
+from texvent.io import block_writer
 from texvent.io.files import codec_for, event_extensions, load, open_events, open_writer, save
 from texvent.sensor import SensorSize
 
-from .format_cases import CASES, METADATA, STREAMS, FormatCase, at_times, random_events
+from .format_cases import CASE_OF, CASES, METADATA, STREAMS, FormatCase, at_times, random_events
 
 EMPTY_FILES = ("atis", "csv", "ecd")
 """Formats without a header: an empty file is a recording without events."""
@@ -25,6 +26,8 @@ ANY_BYTES = ("atis",)
 """Every file of the right length is a recording."""
 LABELLED = ("hdf5", "npz", "dsec")
 """Formats that keep the noise label."""
+WHOLE_CHUNKS = ("hdf5", "dsec", "event-utils")
+"""Formats whose chunks are as long as the blocks that they are given."""
 LIMITED = [case for case in CASES if case.largest.width < 65_535]
 
 
@@ -122,7 +125,10 @@ def test_labels_are_kept_or_left_out_with_one_warning(tmp_path, case):
     save(path, labelled.without_label(), format=case.name, overwrite=True)  # no warning
 
 
-def test_packet_sizes_do_not_change_the_file(tmp_path, case):
+@pytest.mark.parametrize("block", [block_writer.BLOCK_EVENTS, 128])
+def test_packet_sizes_do_not_change_the_file(tmp_path, case, block, monkeypatch):
+    if case.name not in WHOLE_CHUNKS:
+        monkeypatch.setattr(block_writer, "BLOCK_EVENTS", block)
     whole = random_events(1000, case.sensor).with_metadata({"seed": 1})
     cuts = [0, 0, 1, 2, 500, 501, 1000]
     parts = [whole[start:stop] for start, stop in itertools.pairwise(cuts)]
@@ -138,6 +144,17 @@ def test_packet_sizes_do_not_change_the_file(tmp_path, case):
         files.append(path)
     if files[0].is_file():
         assert files[0].read_bytes() == files[1].read_bytes()
+
+
+@pytest.mark.parametrize("name", ["aedat4", "rosbag1", "mcap"])
+def test_packets_that_players_seek_lie_between_multiples_of_ten_milliseconds(tmp_path, name):
+    case = CASE_OF[name]
+    events = random_events(1000, case.sensor, span_us=200_000)
+    events = replace(events, t=events.t + 7_003)
+    save(tmp_path / case.file, events, format=name)
+    times = [packet.t for packet in open_events(tmp_path / case.file, format=name)]
+    assert len(times) > 10
+    assert all(one[0] // 10_000 == one[-1] // 10_000 for one in times)
 
 
 def test_an_error_midway_leaves_no_file(tmp_path, case):

@@ -365,6 +365,19 @@ def test_options_that_do_not_exist_are_named(name):
         load(written("h5"), **{name: "events"})
 
 
+@pytest.mark.parametrize("before", ["", "events_", "event_", "left_events_", "Davis_Event_"])
+@pytest.mark.parametrize("after", ["", "_us", " [us]"])
+def test_a_column_is_known_with_words_before_and_a_unit_behind(before, after):
+    for spellings in itertools.zip_longest(*SPELLINGS.values()):
+        names = [f"{before}{spelling or column}{after * (column == 't')}"
+                 for column, spelling in zip(SPELLINGS, spellings, strict=True)]  # fmt: skip
+        values = {"t": T, "x": X, "y": Y, "p": P}
+        columns = {name: values[one] for name, one in zip(names, SPELLINGS, strict=True)}
+        events, said = found(write_columns(Path("e.npz"), columns))
+        assert is_true(events), (names, events)
+        assert said == []
+
+
 @pytest.mark.parametrize("column", SPELLINGS)
 def test_of_two_names_of_a_column_the_shorter_one_counts(tmp_path, column):
     others = {name: np.array([0, 1]) for name in SPELLINGS if name != column}

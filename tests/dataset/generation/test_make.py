@@ -237,6 +237,7 @@ def test_stored_videos_serve_every_variant(tmp_path):
     record = read_record(folder / "videos" / "train-000000.tar")
     assert record is not None
     assert set(record.samples[0].members) == {"avi", "txt"}
+    assert (record.samples[0].width, record.samples[0].height) == (346, 260)  # of its generator
     esim = read_record(folder / "esim" / "train-000000.tar")
     assert esim is not None
     assert (esim.samples[0].width, esim.samples[0].height) == (32, 24)

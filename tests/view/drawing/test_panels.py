@@ -1,12 +1,20 @@
 import itertools
+from functools import partial
 
 import numpy as np
 import pytest
 
 from texvent.sensor import SENSORS, SensorSize
-from texvent.view.drawing.canvas import blank, draw_label
+from texvent.view.drawing.canvas import blank, draw_arrow, draw_frame, draw_label
 from texvent.view.drawing.palettes import PALETTES, get_palette
-from texvent.view.drawing.panels import SURROUND, PanelLayout, draw_legend, title_of
+from texvent.view.drawing.panels import (
+    BOX_COLOUR,
+    FLOW_COLOUR,
+    SURROUND,
+    PanelLayout,
+    draw_legend,
+    title_of,
+)
 
 SIZES = [
     SENSORS["davis346"].size,
@@ -28,6 +36,18 @@ def test_a_recording_is_called_after_the_fact_that_says_most(count):
         expected = {"": "", "source": "cat.mp4"}.get(first) or TITLES.get(first, "")
         assert title_of({one: TITLES[one] for one in names}) == expected
         assert title_of({"prompt": " ", **{one: TITLES[one] for one in names}}) == expected
+
+
+@pytest.mark.parametrize("colour", [BOX_COLOUR, FLOW_COLOUR, (255, 255, 255)])
+@pytest.mark.parametrize(
+    "draw",
+    [partial(draw_frame, corners=(20, 20, 60, 50)), partial(draw_arrow, tail=(9, 9), tip=(50, 40))],
+    ids=["frame", "arrow"],
+)
+def test_what_is_drawn_stands_out_of_its_own_colour(draw, colour):
+    image = blank(80, 70, colour)
+    draw(image, colour=colour)
+    assert image.sum(axis=-1).min() < 0.5 * sum(colour)
 
 
 @pytest.mark.parametrize("y", [0, 1, 19, 20, 21, 79])
