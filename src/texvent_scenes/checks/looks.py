@@ -21,6 +21,8 @@ _REST = Pose(0.0, 0.0, 0.0, "stand")
 _HUES = ("red", "orange", "yellow", "green", "blue", "purple", "pink")
 _COLOURFUL = 2
 """Hues of what is colourful."""
+_HIP_M = 1.0
+"""Height of what is low, m."""
 _EVEN, _EGG, _LONG, _FLAT, _MOST, _TINGE = 0.8, 0.65, 2.5, 0.3, 0.5, 0.02
 """Ratio of two extents that are about equal; of those of a ball or an egg; of the longest to the
 middle one of what is long; of the height to the others of what is flat; shares of a surface that
@@ -105,6 +107,12 @@ def _is_flat(actor: Actor) -> bool:
     return model.height <= _FLAT * min(model.length, model.width)
 
 
+def _is_low(actor: Actor) -> bool:
+    """Whether it is lower than a person's hip, and than it is long."""
+    model = actor.model
+    return model.height <= min(_HIP_M, max(model.length, model.width))
+
+
 def _made_of(*textures: Texture) -> Callable[[Actor], bool]:
     return lambda actor: is_made_of(actor.own_parts(_REST), *textures)
 
@@ -113,6 +121,8 @@ _LOOKS: Mapping[str, Callable[[Actor], bool]] = {
     "round": _is_round,
     "long": _is_long,
     "flat": _is_flat,
+    "low": _is_low,
+    "narrow": _is_long,
     "furry": _made_of(Texture.FUR, Texture.FEATHERS),
     "shiny": _made_of(Texture.METAL, Texture.LACQUER, Texture.PANE, Texture.MIRROR),
     "glowing": lambda actor: any(part.emission > 0.0 for part in actor.own_parts(_REST)),

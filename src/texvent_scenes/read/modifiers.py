@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from texvent_scenes.colours import SURFACES
@@ -57,7 +58,8 @@ def say_modifiers(draft: SceneDraft, group: Group, index: int) -> None:
         is_side = token.text in ("left", "right")  # "the left ball"
         draft.show(*([token] if token.has("hollow", "partitive") or is_side else []))
         draft.things[index] |= {"placement": token.text} if is_side else {}
-        say_word(draft, token, [] if is_side else [index])
+        first = sorted(token.senses, key=lambda one: one.kind != "field")  # "a low fence"
+        say_word(draft, replace(token, senses=tuple(first)), [] if is_side else [index])
     for token in sizes:
         thing = draft.things[index]
         thing["count"] = max(2, round(thing["count"] * token.value("field")[1]))

@@ -103,7 +103,8 @@ def _says_of_parts(draft: SceneDraft, clause: Clause) -> bool:
     known, nearest = range(len(draft.things)), draft.last.nearest
     if not say_parts(draft, said, known):
         return False
-    phrases = [one for one in clause.after if isinstance(one, Phrase) or one.has("scene")]
+    phrases = [one for one in clause.after if isinstance(one, Phrase) or one.has("scene")
+               or one.says("adverb", "direction")]  # fmt: skip
     say_after(draft, phrases, nearest, nearest, nearest)  # where the whole is
     return True
 

@@ -123,9 +123,15 @@ def _say_of_place(draft: SceneDraft, token: Token, name: str, *, is_it: bool) ->
             place |= {"colour": "black", "sky": "black"}
     elif field == "colour" and is_it and not is_room(name):
         place["sky" if name == "sky" else "colour"] = value
-    elif not (token.has("partitive") or set_scene(draft, token)):
+    elif not (token.has("partitive") or set_scene(draft, token) or name in _true_of(token)):
         return
     draft.show(token)
+
+
+def _true_of(token: Token) -> Sequence[str]:
+    """Nouns and places of which an adjective is true anyway: "a narrow corridor"."""
+    said: Sequence[str] = word_table("inherent").get(token.text, ())
+    return said
 
 
 def go_inside(draft: SceneDraft, group: Group, relation: str, owners: Sequence[int]) -> bool:
