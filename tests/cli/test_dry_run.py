@@ -45,6 +45,21 @@ def test_what_happens_late_in_a_clip_is_counted(begin):
     assert 0.3 * true < guess < 3 * true
 
 
+@pytest.mark.parametrize("count", [13, 40, 61])
+def test_an_estimate_is_the_mean_of_the_pairs_of_four_parts_each_rested_for_one(count):
+    """Of a short clip, all; the first pair of a later part does not count, nor its rest before."""
+    frames = np.random.default_rng(count).integers(0, 256, (count, 12, 16), dtype=np.uint8)
+    starts = [part * (count - 4) // 3 for part in range(4)] if count > 13 else [0]
+    parts = [range(start, start + 4 if count > 13 else count) for start in starts]
+    found = []
+    for part in parts:
+        times_us = 20_000 * np.array(part)
+        events = texvent.simulate(frames[part], t_us=times_us, **OPTIONS)
+        pairs = [len(events.between(*one)) for one in itertools.pairwise(times_us.tolist())]
+        found += pairs[1:] if part.start else pairs
+    assert f"about {np.mean(found) * (count - 1):,.0f} events in " in estimate(frames)
+
+
 @pytest.mark.parametrize("compiles_s", [0.0, 1000.0])
 def test_compilation_is_no_part_of_the_time_of_the_whole(compiles_s):
     """By a clock on which a frame takes 1/4 s, and the first one the time of compilation too."""

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from tests.cli.running import refused, run
 
+import texvent
 from texvent.events import EventStream
 from texvent.io.files import load, save
 from texvent.sensor import SensorSize
@@ -121,3 +122,13 @@ def test_view_saves_a_page_with_the_video_beside_and_opens_nothing(small, monkey
     page = Path("page.html").read_text("utf-8")
     assert "Shows 100 of 500 events" in page
     assert page.count("data:image/jpeg") > 3
+
+
+def test_a_scene_of_another_size_than_the_events_is_not_drawn_beside_them(folder):
+    options = {"sensor": "16x12", "duration": 0.1, "interpolate": "none", "seed": 1}
+    events = texvent.generate("a red ball bounces", **options)
+    for size in ((16, 12), (32, 18)):
+        placed = EventStream(events.x, events.y, events.t, events.p, SensorSize(*size))
+        placed.with_metadata(events.metadata).save(f"{size[0]}.h5")
+        assert run("view", f"{size[0]}.h5", "-o", f"{size[0]}.html") == 0
+        assert ("image/jpeg" in Path(f"{size[0]}.html").read_text("utf-8")) == (size == (16, 12))

@@ -9,10 +9,12 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from tests.cli.running import run
 
 from texvent.cli.event_files.event_file_options import FileFactOptions
-from texvent.cli.event_files.info import describe_events
+from texvent.cli.event_files.info import describe_events, shortened
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
@@ -102,3 +104,23 @@ def test_the_figures_are_those_of_all_packets_together(first_us, cuts):
     assert (facts["events"], facts["on_share"]) == (100, 1.0)
     assert (facts["first_us"], facts["last_us"]) == (first_us, first_us + 1_980_000)
     assert (facts["seconds"], facts["events_per_second"]) == (1.98, 51)
+
+
+def test_what_lies_beside_the_events_is_counted_to_the_end(tmp_path, capsys):
+    rows = np.stack([np.full(600_000, 1 << 10), np.arange(600_000)], axis=1)  # signals of a DAVIS
+    (tmp_path / "e.aedat").write_bytes(b"#!AER-DAT2.0\r\n" + rows.astype(">u4").tobytes())
+    assert run("info", tmp_path / "e.aedat", "--sensor", "346x260", "--json") == 0
+    assert json.loads(capsys.readouterr().out)["triggers"] == 600_000
+
+
+@given(text=st.text(max_size=40), most=st.none() | st.integers(8, 30))
+def test_of_a_long_value_beginning_and_end_are_shown(text, most):
+    shown = shortened(text, most)
+    if most is None or len(text) <= most:
+        assert shown == text
+    else:
+        begin, end = shown.split("...", 1) if "..." not in text else (shown[: most // 2], "")
+        assert len(shown) == most
+        assert text.startswith(begin)
+        assert text.endswith(end)
+        assert len(begin) == most // 2
