@@ -206,7 +206,7 @@ def _tell_way(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
     ways = [(abs(way), f"{_round(abs(way))} m {name[int(way > 0)]}")
             for way, name in zip(body.displacement, names, strict=True)]  # fmt: skip
     least = 0.3 * max(length for length, _ in ways)
-    told = [words for length, words in ways if length >= max(least, 0.5 * _STAYS)]
+    told = [words for length, words in ways if length >= least]
     speed = path / max(staged.duration_s, 1e-9)
     net = float(np.linalg.norm(middle[-1] - middle[0]))
     around = [] if net >= 0.3 * path else [f"along a way of {_round(path)} m that turns back"]

@@ -149,3 +149,10 @@ def test_every_place_is_named_with_its_light(name):
     line, _, camera = lines(place={"name": name}, light={"kind": "night"})
     assert re.match(f"({'|'.join((name, *PLACES[name].names))}) at night", line), line
     assert camera.startswith("camera: ")
+
+
+@pytest.mark.parametrize("noun", ["hummingbird", "drone", "balloon", "bee"])
+@pytest.mark.parametrize("kind", ["hover", "sway", "shake", "bounce"])
+def test_small_motions_have_a_line_whichever_way_they_go(noun, kind):
+    _, (line,), _ = lines({"noun": noun, "motions": [{"kind": kind}]}, camera={"framing": "close"})
+    assert re.search(r"(goes .*\d m.* at |stays|turns by)", line), line
