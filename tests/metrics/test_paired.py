@@ -2,16 +2,19 @@
 
 import dataclasses
 import math
+from fractions import Fraction
 
 import numpy as np
 import pytest
 from hypothesis import example, given
+from hypothesis import strategies as st
 from tests.examples import examples
 
 from texvent._registry import METRICS
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.metrics.compare import compare, describe_metrics
+from texvent.metrics.protocol import bin_index
 from texvent.sensor import SensorSize
 
 from . import slow
@@ -21,6 +24,15 @@ WANTING = ("ef_lpips", "eqs")
 """Metrics of trained networks, whose weights no test may count on; they have tests of their own."""
 EVERY_METRIC = [name for name in METRICS.names() if name not in WANTING]
 """Parameters of the tests below: a new metric is tested the moment it is registered."""
+
+
+@given(
+    times=st.lists(st.integers(-(2**52), 2**52), min_size=1, max_size=9),
+    rate=st.fractions(Fraction(1, 100), 10**6, max_denominator=1001),
+)
+def test_the_bin_of_a_time_is_that_of_exact_fractions(times, rate):
+    found = bin_index(np.array(times, np.int64), rate)
+    assert found.tolist() == [math.floor(Fraction(t) * rate / 10**6) for t in times]
 
 
 @pytest.fixture(autouse=True)

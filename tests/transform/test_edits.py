@@ -44,6 +44,8 @@ EDITS: dict[str, tuple[Callable[[EventStream], EventStream], dict[str, object]]]
         lambda events: events.filter("mask", pixels=np.zeros((6, 8), bool)),
         {"filter": ["mask:pixels"]},
     ),
+    "shift": (lambda events: shift(events, 1, -2), {"shift": "1,-2"}),
+    "polarity": (flip_polarity, {"flip_polarity": True}),
     "from zero": (start_at_zero, {"from_zero": True}),
     "between": (lambda events: events.between(500_000, 900_000), {"time": "0.5,0.9"}),
 }

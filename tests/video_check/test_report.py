@@ -21,6 +21,19 @@ def frames(images):
     return [Frame(image.astype(np.float32), i * 40_000) for i, image in enumerate(images)]
 
 
+@pytest.mark.parametrize(
+    ("name", "measured", "said"),
+    [("time jump", {"jumps": 2.0, "longest_jump_s": 30.0}, "2, of up to 30 s"),
+     ("time jump", {"jumps": 0.0, "longest_jump_s": 0.0}, "none"),
+     ("missing frames", {"missing": 1.0}, "a gap in the numbers of images"),
+     ("missing frames", {"missing": 0.0}, "no gap in the numbers of images")],
+)  # fmt: skip
+def test_a_count_is_said_as_it_was_measured(name, measured, said):
+    (check,) = (one for one in CHECKS if one.name == name)
+    assert check.value(measured) == said
+    assert check.is_found(measured) == (not said.startswith("no"))
+
+
 @pytest.fixture(scope="module")
 def clip():
     """24 frames of a pan over a textured image: [N, H, W], 0..255."""

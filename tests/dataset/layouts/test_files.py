@@ -116,6 +116,24 @@ def test_windows_are_all_that_fit(tmp_path: Path, name: str, length_us: int, sta
     assert [last for _, last, _ in pictures] == expected
 
 
+@pytest.mark.parametrize("name", ["rvt", "coco"])
+def test_a_picture_shows_the_events_up_to_its_last_microsecond(tmp_path: Path, name: str) -> None:
+    """Each event is at a pixel of its own."""
+    edges = [t_us + by for t_us in INSTANTS.tolist() for by in (-1, 0, 1)]
+    x, y = np.arange(len(edges)) % SIZE.width, np.arange(len(edges)) // SIZE.width
+    events = EventStream(x, y, edges, [1] * len(edges), SIZE)
+    place = tmp_path / "train/abc"
+    place.parent.mkdir()
+    sample = crossing(read_events=lambda: events)
+    LAYOUTS[name].write(sample, place)
+    LAYOUTS[name].finish(tmp_path, [sample], ("car", "man"))
+    ((_, read),) = READERS[name](tmp_path)
+    assert read.pictures
+    for first_us, last_us, lit in read.pictures:
+        shown = (events.t >= first_us) & (events.t <= last_us)
+        assert np.argwhere(lit)[:, ::-1].tolist() == np.stack([x, y], axis=1)[shown].tolist()
+
+
 def test_dsec_det_begins_its_index_at_the_first_image_before_any_event(tmp_path: Path) -> None:
     sample = crossing()
     events = sample.read_events().between(3_000, 200_000)

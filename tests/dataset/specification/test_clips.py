@@ -1,6 +1,7 @@
 import math
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -158,3 +159,26 @@ def test_settings_of_a_clip_are_those_of_its_options_with_its_seed(threshold: ob
         clip = clips.clip("train", number)
         drawn = draw_options(options, 3, clip.key)
         assert settings.of(clip) == resolve("generate", {**drawn, "seed": clip.seed})
+
+
+def test_items_that_differ_in_one_field_have_keys_of_their_own(tmp_path):
+    for name in "ab":
+        np.save(tmp_path / f"{name}.npy", np.zeros((2, 16, 16), np.uint8))
+        (tmp_path / f"{name}.txt").write_text("1,1,3,3,4,4,1,1,1\n")
+    (tmp_path / "p.jsonl").write_text('{"prompt": "a car", "seed": 7}\n')
+    prompts = {"prompts": ["a car"]}
+    videos = {"videos": ["a.npy"]}
+    boxed = {**videos, "boxes": "a.txt", "box_rate": 10}
+    every = [
+        (prompts, [{"prompts": ["a bus"]}, {**prompts, "label": "car"}, {"file": "p.jsonl"}]),
+        (videos, [{"videos": ["b.npy"]}, {**videos, "label": "car"}, boxed]),
+        (boxed, [{**boxed, "boxes": "b.txt"}, {**boxed, "box_rate": 20}, {**boxed, "label": "x"}]),
+    ]
+    for one, others in every:
+        keys = [
+            read_items(specification_from({"name": "x", "sources": [source]}, folder=tmp_path))
+            .all[0]
+            .key
+            for source in (one, *others)
+        ]
+        assert len({*keys}) == 1 + len(others), one

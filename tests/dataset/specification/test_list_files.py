@@ -4,7 +4,13 @@ import json
 
 import pytest
 
-from texvent.dataset.specification.list_files import NOT_READ, ListEntry, read_list
+from texvent.dataset.specification.list_files import (
+    LABEL_COLUMNS,
+    NAME_COLUMNS,
+    NOT_READ,
+    ListEntry,
+    read_list,
+)
 from texvent.errors import FileFormatError, TexventWarning
 
 
@@ -20,6 +26,15 @@ def test_a_text_file_has_one_prompt_per_line_and_comments(tmp_path):
         ListEntry(f"{path} line 2", "a red\u2028car"),
         ListEntry(f"{path} line 5", "ein Bär läuft"),
     )
+
+
+@pytest.mark.parametrize("column", [*NAME_COLUMNS, "seed", *LABEL_COLUMNS])
+def test_a_number_may_be_a_name_a_seed_or_a_label_and_0_is_one(tmp_path, column):
+    rows = [{"prompt": "a car", column: value} for value in (0, 7, None, "")]
+    path = written(tmp_path, "p.jsonl", "\n".join(map(json.dumps, rows)))
+    field = "seed" if column == "seed" else "name" if column in NAME_COLUMNS else "label"
+    found = [getattr(one, field) for one in read_list(path)]
+    assert found == ([0, 7] if field == "seed" else ["0", "7"]) + [None, None]
 
 
 def test_a_csv_has_columns_for_prompt_name_and_seed(tmp_path):

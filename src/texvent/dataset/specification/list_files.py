@@ -203,7 +203,7 @@ def _entry(path: Path, number: int, row: Mapping[Any, Any]) -> ListEntry:
 
 def _first(row: Mapping[Any, Any], columns: Sequence[str]) -> Any:
     """The value of the first of some columns that has one."""
-    return next((row[name] for name in columns if row.get(name)), None)
+    return next((row[name] for name in columns if row.get(name) not in (None, "")), None)
 
 
 def _path_of(where: str, entry: Mapping[Any, Any], column: str) -> str | None:
