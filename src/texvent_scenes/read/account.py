@@ -72,6 +72,7 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
         if token.has("style") and " " in token.text:
             draft.show(token)  # "in front of the camera"
         fate = draft.fates.get(token.at, "" if is_open else "lost")
+        fate = "shown" if fate == "camera" and _sees_itself(draft) else fate
         text = draft.compounds.get(token.at, token.text)
         if fate == "lost" or (fate and fates.get(text, "shown") == "shown"):
             fates[text] = fate
@@ -85,6 +86,11 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
         claims=tuple(_list_claims(draft)),
         dependences=tuple(_list_dependences(draft, lost)),
     )
+
+
+def _sees_itself(draft: SceneDraft) -> bool:
+    """Whether a view is that of who goes, who is not seen: "first-person view of a drone"."""
+    return draft.is_driven or draft.parts["camera"].get("view") == "first person"
 
 
 _TIES = ("verb", "pose", "adverb", "relation", "shot", "other")

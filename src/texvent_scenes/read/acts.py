@@ -191,16 +191,26 @@ def _act_as_person(
         one |= {"noun": "person", "count": 1}
     for act in acts:
         if draft.fits(act, subjects, objects, has_object):
-            for token in draft.tokens if act.relation in of_hands else ():
-                if token.nouns & HAND_NOUNS:
-                    draft.mark(token, "person")  # all of whom bends down
-            are_hands = {noun for noun, _ in said} <= HAND_NOUNS
-            if are_hands and act.kind in ACTIVITIES and act.relation not in SENT:
-                draft.parts["camera"].setdefault("framing", "close")  # no more is said of whose
+            _tell_hands(draft, act, {noun for noun, _ in said})
             return act
     for one, (noun, count) in zip(things, said, strict=True):
         one |= {"noun": noun, "count": count}
     return None
+
+
+def _tell_hands(draft: SceneDraft, act: VerbSense, nouns: set[str]) -> None:
+    """Report hands as whose whole body is drawn, and fingers, which are not made out.
+
+    Of hands at work a close view tells enough.
+    """
+    for token in (one for one in draft.tokens if one.nouns & HAND_NOUNS):
+        is_named = any(one in token.text for one in HAND_NOUNS)
+        if act.relation in word_set("things", "of_bodies"):
+            draft.mark(token, "person")  # all of whom bends down
+        elif nouns <= HAND_NOUNS and not is_named:
+            draft.mark(token, "hand")  # "fingers typing"
+    if nouns <= HAND_NOUNS and act.kind in ACTIVITIES and act.relation not in SENT:
+        draft.parts["camera"].setdefault("framing", "close")  # no more is said of whose
 
 
 def _do(draft: SceneDraft, act: VerbSense, verb: Token, index: int) -> None:

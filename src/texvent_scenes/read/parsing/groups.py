@@ -209,7 +209,9 @@ class GroupReader:
         known, lost = (modifiers, []) if head else ([], modifiers)
         of = None
         is_of = self._token().text == "of" or self._token().has("containing")
-        if is_of and self._starts_group(1):
+        is_doing = bool(self._token(1).verbs("ing")) and self._token(2).is_unknown
+        is_content = is_doing and self._token(3).has("noun")  # "of ticking alarm clocks"
+        if is_of and (self._starts_group(1) or is_content):
             of = Phrase(self._take(), (self._group(),))
         elif head is None and self._token().text == "of" and self._token(1).text == "them":
             of = Phrase(self._take(), ())
