@@ -49,18 +49,18 @@ def changed_tiles(before: Drawn, after: Drawn) -> Mask | None:
     """
     if not _is_comparable(before.world, after.world):
         return None
-    instant, chosen = after.world.instant[0], _changed_shapes(before, after)
+    instant, chosen = after.world.instant[0], changed_shapes(before, after)
     if len(chosen) and instant["shadow_lamps"]:
         return None
-    shadows = _shadow_windows(before, after, chosen)
+    shadows = shadow_windows(before, after, chosen)
     if shadows is None:
         return None
-    mirroring = _mirroring(before, after, chosen)
+    mirroring = mirroring_shapes(before, after, chosen)
     if mirroring is None:
         return None
     windows = [one.world.shapes["window"][chosen] for one in (before, after)]
     windows.append(after.world.shapes["window"][mirroring])
-    windows += _drifting_windows(before.world, after.world)
+    windows += drifting_windows(before.world, after.world)
     tiles = touched_tiles(np.concatenate([*windows, *shadows]), instant)
     if before.world.instant[0]["time"] != instant["time"] and instant["clouds"] > 0.0:
         tiles |= _sky_tiles(instant)
@@ -74,7 +74,7 @@ def _is_comparable(before: World, after: World) -> bool:
     return bool(
         len(before.shapes) == len(after.shapes)
         and first["distortion"] == NO_DISTORTION
-        and not (first["time"] != second["time"] and first["ground"] in _FLOWING)
+        and not (first["time"] != second["time"] and has_flow(first))
         and all(np.array_equal(first[name], second[name]) for name in _FIELDS)
         and np.array_equal(first["crossings"][:count], second["crossings"][:count])
         and np.array_equal(before.lamps, after.lamps)
@@ -83,7 +83,12 @@ def _is_comparable(before: World, after: World) -> bool:
     )
 
 
-def _changed_shapes(before: Drawn, after: Drawn) -> NDArray[np.int64]:
+def has_flow(instant: Any) -> bool:
+    """Whether the ground changes with time."""
+    return bool(instant["ground"] in _FLOWING)
+
+
+def changed_shapes(before: Drawn, after: Drawn) -> NDArray[np.int64]:
     """Numbers of the shapes that differ in any bit, or whose mesh or image does."""
     changed = _differing(before.world.shapes, after.world.shapes)
     for name in ("mesh", "image"):
@@ -97,13 +102,15 @@ def _changed_shapes(before: Drawn, after: Drawn) -> NDArray[np.int64]:
     return np.flatnonzero(changed)
 
 
-def _drifting_windows(before: World, after: World) -> list[Float64Array]:
+def drifting_windows(before: World, after: World) -> list[Float64Array]:
     """Screen bounds of the media that differ, [k, 4] each, pixels."""
     differs = _differing(before.media, after.media)
     return [world.media["window"][differs] for world in (before, after)]
 
 
-def _mirroring(before: Drawn, after: Drawn, chosen: NDArray[np.int64]) -> NDArray[np.int64] | None:
+def mirroring_shapes(
+    before: Drawn, after: Drawn, chosen: NDArray[np.int64]
+) -> NDArray[np.int64] | None:
     """Numbers of glossy shapes that may mirror the `chosen`; None: the ground may too."""
     first, second = before.world.mirrored, after.world.mirrored
     if len(first) != len(second):
@@ -165,7 +172,7 @@ def _sky_tiles(instant: Any) -> Mask:
     return np.asarray(up[:-1, :-1] | up[:-1, 1:] | up[1:, :-1] | up[1:, 1:])
 
 
-def _shadow_windows(
+def shadow_windows(
     before: Drawn, after: Drawn, chosen: NDArray[np.int64]
 ) -> list[Float64Array] | None:
     """Screen bounds of the sun's shadows of some shapes, [k, 4] each, pixels.

@@ -31,6 +31,7 @@ from texvent_scenes.raycast.adaptive_sampling import UNKNOWN, Codes
 from texvent_scenes.raycast.changed_tiles import Mask, changed_tiles
 from texvent_scenes.raycast.optics import PERFECT, Optics, widened
 from texvent_scenes.raycast.render import Drawn, light_of_rows, world_and_shapes
+from texvent_scenes.raycast.swept import is_small, swept_speeds
 from texvent_scenes.rendered_scene import Float32Array, RenderedScene
 
 MOST_CHANGED = 0.9
@@ -44,6 +45,8 @@ DARK = 30.0
 """Added to levels before they are compared, 0..255 scale."""
 FASTEST_PX = 4.0
 """Blocks that something passes by more than this in an interval are drawn in its middle."""
+OFTEN = 8.0
+"""Intervals, in instants, whose middles and those of longer ones make a quarter of all instants."""
 EVEN_BEATS = 8.0
 """Intervals above a period of beating light over this are drawn whole in their middle: the ends and
 the middle may all show the same moment of it."""
@@ -74,6 +77,16 @@ class RenderedFrame(NamedTuple):
     """[H, W] surfaces that fill whole pixels, as for `render_rows`."""
     light: Float32Array
     """[H, W, 3] linear, without a lens."""
+
+
+class _Span(NamedTuple):
+    """The instants from one frame to the next."""
+
+    times_s: Sequence[float]
+    speeds: Float32Array
+    """[n - 1, rows, columns] of blocks: displacements from instant to instant, px."""
+    kept: Mapping[float, Drawn]
+    """Instants that are described already."""
 
 
 class IncrementalRenderer:
@@ -135,23 +148,45 @@ class IncrementalRenderer:
             times_s: of the frame before, of the instants, of the frame after.
         """
         ends = times_s[0], times_s[(len(times_s) - 1) // 2], times_s[-1]
-        self._kept = kept = {time_s: self._drawn(time_s) for time_s in ends}
+        kept = {time_s: self._drawn(time_s) for time_s in ends}
         blocks: Mask = np.zeros(speeds.shape, np.bool_)
         for one, other in pairwise(kept.values()):
             tiles = changed_tiles(one, other)
             blocks |= True if tiles is None else _refined(tiles, TILE // BLOCK, speeds.shape)
         speeds = speeds / np.float32(len(times_s) - 1)
-        return (one.luma for one in self._divide(first, last, blocks, speeds, times_s))
+        passing = self._find_swept(speeds, times_s, kept)
+        self._kept = {time_s: kept[time_s] for time_s in ends}
+        span = _Span(times_s, passing, kept)
+        return (one.luma for one in self._divide(first, last, blocks, span))
+
+    def _find_swept(
+        self, speeds: Float32Array, times_s: Sequence[float], kept: dict[float, Drawn]
+    ) -> Float32Array:
+        """[n - 1, rows, columns] displacements of the fastest that passes between two instants.
+
+        All instants are described, in `kept`, where something is so fast that many are drawn. Else
+        the bounds are those of the frames.
+        """
+        count = len(times_s)
+        usual = np.broadcast_to(speeds, (count - 1, *speeds.shape))
+        is_fast = count > 2 and bool((OFTEN * speeds > FASTEST_PX).any())
+        if not (is_fast and is_small(kept[times_s[0]], count)):
+            return usual
+        kept |= {time_s: self._drawn(time_s) for time_s in times_s if time_s not in kept}
+        instants, (rows, columns) = [kept[time_s] for time_s in times_s], speeds.shape
+        margin_px = 1.0 + 2.0 * self._optics.point_spread_px
+        swept = swept_speeds(instants, (rows, columns), BLOCK, margin_px)
+        return usual if swept is None else np.minimum(swept, usual)
 
     def _divide(
-        self, before: DrawnInstant, after: DrawnInstant, blocks: Mask, speeds: Float32Array,
-        times_s: Sequence[float],
-    ) -> Iterator[DrawnInstant]:  # fmt: skip
+        self, before: DrawnInstant, after: DrawnInstant, blocks: Mask, span: _Span
+    ) -> Iterator[DrawnInstant]:
         """The instants between two others; only `blocks` do not change evenly there."""
         steps = after.number - before.number
         if steps < 2:
             return
         number = (before.number + after.number) // 2
+        times_s = span.times_s
         start, stop = times_s[before.number], times_s[after.number]
         beats = stop - start > self._even_s
         blocks = np.ones_like(blocks) if beats else blocks
@@ -159,33 +194,35 @@ class IncrementalRenderer:
         luma, light = (_mixed(before, after, share, name) for name in ("luma", "light"))
         codes = np.full(self._size.shape, UNKNOWN)
         if blocks.any():
-            moved = speeds * np.float32(steps)
+            fastest = span.speeds[before.number : after.number].max(axis=0)
+            moved = fastest * np.float32(steps)
             wanted = _refined(blocks, BLOCK, self._size.shape)
             if before.codes is not None and after.codes is not None and not beats:
                 predict_surface_ids(before.codes, after.codes, wanted, moved, codes)
             touched = self._optics.touched(wanted)
-            exact = self._luma(times_s[number], (wanted, touched), codes, light)
+            drawn = span.kept.get(times_s[number]) or self._draw(time_s=times_s[number])
+            exact = self._luma(drawn, (wanted, touched), codes, light)
             uneven = np.zeros(self._size.shape, np.bool_)
             replace_levels(luma, exact, touched, min(EVEN, EVEN_S / (stop - start)), uneven)
             uneven = widened(uneven, round(self._optics.point_spread_px))
             if not beats:
                 blocks = blocks & (_any_in_block(uneven) | (moved > FASTEST_PX))
         middle = DrawnInstant(number, luma, light, codes)
-        yield from self._divide(before, middle, blocks, speeds, times_s)
+        yield from self._divide(before, middle, blocks, span)
         yield middle
-        yield from self._divide(middle, after, blocks, speeds, times_s)
+        yield from self._divide(middle, after, blocks, span)
 
     def _drawn(self, time_s: float) -> Drawn:
         return self._kept.get(time_s) or self._draw(time_s=time_s)
 
     def _luma(
-        self, time_s: float, pixels: tuple[Mask, Mask], codes: Codes, light: Float32Array
+        self, drawn: Drawn, pixels: tuple[Mask, Mask], codes: Codes, light: Float32Array
     ) -> Float32Array:
         """Luma [k] at an instant, of the second of two sets of pixels; the first is drawn.
 
         `codes` are known ones, and those found; `light` is written where it is drawn.
         """
-        drawn, (wanted, touched) = self._drawn(time_s), pixels
+        wanted, touched = pixels
         self._cast(drawn.world, wanted=wanted, codes=codes, light=light)
         levels = self._code(self._optics.passed(light, drawn.world, touched))
         return np.asarray(luma_bt601(levels[None])[0], dtype=np.float32)
