@@ -68,11 +68,11 @@ SCENES = {
 """A scene for each kind of change."""
 MISSES = {
     "clouds": ("_sky_tiles", lambda instant: NO_TILES),
-    "shapes": ("_changed_shapes", lambda *drawn: np.zeros(0, dtype=np.int64)),
-    "shadows": ("_shadow_windows", lambda *drawn: []),
-    "mirrored": ("_mirroring", lambda *drawn: np.zeros(0, dtype=np.int64)),
-    "sharply mirrored": ("_mirroring", lambda *drawn: np.zeros(0, dtype=np.int64)),
-    "media": ("_drifting_windows", lambda *drawn: []),
+    "shapes": ("changed_shapes", lambda *drawn: np.zeros(0, dtype=np.int64)),
+    "shadows": ("shadow_windows", lambda *drawn: []),
+    "mirrored": ("mirroring_shapes", lambda *drawn: np.zeros(0, dtype=np.int64)),
+    "sharply mirrored": ("mirroring_shapes", lambda *drawn: np.zeros(0, dtype=np.int64)),
+    "media": ("drifting_windows", lambda *drawn: []),
 }
 """Function that finds a kind of change, and one that finds none."""
 
