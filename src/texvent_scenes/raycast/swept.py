@@ -34,7 +34,7 @@ _MOST_BYTES = 1 << 26
 
 
 class _Moving(NamedTuple):
-    """What differs between two instants."""
+    """Differences between two instants."""
 
     shapes: NDArray[np.int64]
     """[k] numbers of the shapes that differ."""
@@ -92,7 +92,7 @@ def swept_speeds(
 
 
 def _find_moving(before: Drawn, after: Drawn) -> _Moving | None:
-    """What differs between two instants; None: anything may."""
+    """Differences between two instants; None: anything may differ."""
     first, second = before.world, after.world
     one, other = first.instant[0], second.instant[0]
     if (
