@@ -19,7 +19,7 @@ from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.draft.setting import names_place
 from texvent_scenes.read.parsing.clauses import Clause, read_clauses
 from texvent_scenes.read.parsing.groups import Phrase, heads_of
-from texvent_scenes.read.parsing.lexicon import lexicon_of, word_set
+from texvent_scenes.read.parsing.lexicon import Sense, VerbSense, lexicon_of, word_set
 from texvent_scenes.read.parsing.senses import choose_senses
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token, split_prompt
 from texvent_scenes.read.participants import (
@@ -120,8 +120,22 @@ def _describe_place(clause: Clause) -> Clause:
     return replace(clause, subjects=(whole,), after=tuple(o for o in clause.after if o not in said))
 
 
+def _name_doers(draft: SceneDraft, clause: Clause) -> Clause:
+    """A clause that names an act "between" some, as what these do: "a match between two men"."""
+    act = clause.subjects[0].head if len(clause.subjects) == 1 else None
+    first = clause.after[0] if clause.after else None
+    poses = act.all("pose") if act is not None and not act.has("noun") else ()
+    is_led = isinstance(first, Phrase) and first.preposition.text == "between"
+    if clause.verb is not None or not (poses and is_led and isinstance(first, Phrase)):
+        return clause
+    done = tuple(Sense("verb", VerbSense(*one.value), "base") for one in poses)
+    verb = replace(act, senses=done) if act is not None else None
+    draft.show(first.preposition)
+    return replace(clause, subjects=first.groups, verb=verb, after=clause.after[1:])
+
+
 def _apply_to_things(draft: SceneDraft, clause: Clause) -> None:
-    clause = _describe_place(clause)
+    clause = _name_doers(draft, _describe_place(clause))
     known, where = len(draft.things), draft.last.nearest
     draft.last.where = where
     told = subjects = find_subjects(draft, clause)

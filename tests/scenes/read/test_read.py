@@ -153,3 +153,31 @@ def test_parts_that_move_are_claimed_of_their_owner(text, part):
 )
 def test_a_change_is_shown_where_something_is_before_it(text, word, is_so):
     assert (word in reader.read(text, NOUNS).shown) == is_so
+
+
+@pytest.mark.parametrize(
+    ("text", "nouns"),
+    [
+        ("a ball bounces over the stones and slides back into the lake", {"ball", "rock"}),
+        ("a door opens beside the shelves and swings back", {"door", "shelf"}),
+        ("a snake crawls past the logs and rolls back to the tree", {"snake", "log", "tree"}),
+        ("a man with trees and swings", {"man", "tree", "swing"}),
+        ("a park has benches and slides on the grass", {"bench", "slide"}),
+    ],
+)
+def test_what_is_done_after_and_is_no_thing(text, nouns):
+    assert {one.noun for one in reader.read(text, NOUNS).scene.objects} == nouns
+
+
+@pytest.mark.parametrize(
+    ("text", "doers"),
+    [
+        ("a table tennis rally between two players", {"person": 2}),
+        ("a tennis match between a man and a woman", {"man": 1, "woman": 1}),
+        ("a game of badminton between two robots", {"robot": 2}),
+    ],
+)
+def test_those_between_whom_an_act_is_do_it_and_nobody_else(text, doers):
+    objects = reader.read(text, NOUNS).scene.objects
+    rally = [one for one in objects if any("rally" in each.kind for each in one.motions)]
+    assert {one.noun: one.count for one in rally} == doers

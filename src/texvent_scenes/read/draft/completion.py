@@ -77,22 +77,21 @@ _SEEN_SIZE = 3.0
 
 def _find_opponents(draft: SceneDraft) -> None:
     """Give who plays a rally an opponent, a ball and what they play over."""
-    table = word_table("rallies")
-    for index, thing in enumerate(tuple(draft.things)):
-        kind = next((one["kind"] for one in thing["motions"] if one["kind"] in table), "")
-        if not kind or any(one["kind"] == "rally" for one in thing["relations"]):
+    for kind, needed in word_table("rallies").items():
+        players = [n for n, one in enumerate(draft.things)
+                   if kind in [each["kind"] for each in one["motions"]]
+                   and not any(each["kind"] == "rally" for each in one["relations"])]  # fmt: skip
+        if not players:
             continue
-        players, targets = [index], []
-        if thing["count"] == 1:
+        if sum(draft.things[one]["count"] for one in players) == 1:
             players.append(draft.add("person", motions=[{"kind": kind}]))
-        ball, _ = table[kind]
-        for noun in table[kind]:
+        targets = []
+        for noun in needed:
             known = [n for n, one in enumerate(draft.things) if noun.endswith(one["noun"])]
             for one in known[:1]:
                 draft.things[one] |= {"noun": noun, "motions": []}
             targets.append(known[0] if known else draft.add(noun))
-            if noun == ball:  # else it is a speck between two people
-                draft.things[targets[-1]].setdefault("size", _SEEN_SIZE)
+        draft.things[targets[0]].setdefault("size", _SEEN_SIZE)  # a speck between two people
         for one in players:
             draft.relate(one, "rally", targets)
 

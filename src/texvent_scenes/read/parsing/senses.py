@@ -149,10 +149,34 @@ def _goes_on(token: Token, tokens: Sequence[Token]) -> bool:
     conjunction, before = (token_at(tokens, token.at + step) for step in (-1, -2))
     signs = (one.at + 1 for one in tokens[: token.at] if one.is_sign)
     said = tokens[max(signs, default=0) : max(token.at - 1, 0)]
-    is_listed = any(one.value.is_plural for one in before.all("noun"))
     verbs = (*token.verbs("s"), *token.verbs("base"))
-    acts = [one for one in said if one.verbs("s") or one.verbs("base")]
-    return conjunction.text == "and" and bool(verbs and acts) and not is_listed
+    acts = [one for one in said if one.verbs("s") or one.verbs("base") or _is_new_verb(one, said)]
+    is_moved = _is_way(token_at(tokens, token.at + 1))
+    is_listed = any(one.value.is_plural for one in before.all("noun"))
+    is_listed &= not (is_moved or _is_apart(token, said, tokens))
+    is_act = bool(verbs) and (bool(acts) or is_moved)
+    return conjunction.text == "and" and is_act and not is_listed
+
+
+def _is_new_verb(token: Token, said: Sequence[Token]) -> bool:
+    """Whether an unknown word is a verb by its ending and place: "foam spreads over the stones"."""
+    at = next(n for n, one in enumerate(said) if one is token)
+    before, after = (said[n] if 0 <= n < len(said) else NO_TOKEN for n in (at - 1, at + 1))
+    is_form = token.is_unknown and is_plural_form(token.text)
+    is_after_subject = before.has("noun") or (before.is_unknown and not before.is_sign)
+    return is_form and is_after_subject and after.has("relation", "adverb")
+
+
+def _is_way(token: Token) -> bool:
+    """Whether it begins with an adverb of a way: "back into"."""
+    return token.has("adverb") or token.text.split()[0] in word_set("things", "returns")
+
+
+def _is_apart(token: Token, said: Sequence[Token], tokens: Sequence[Token]) -> bool:
+    """Whether it is in no list: the things before have an article, and a preposition follows."""
+    words = [one for one in said[-_NEAR:] if one.has("articles", "relation", "verb")]
+    has_article = bool(words) and words[-1].has("articles")
+    return has_article and token_at(tokens, token.at + 1).has("relation")
 
 
 def _see_as_mass(token: Token, tokens: Sequence[Token]) -> Token:
