@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from texvent._registry import suggest
 from texvent.errors import ConfigError, shown
@@ -119,3 +124,41 @@ def find_colour(name: str, colours: Mapping[str, Colour], where: str = "colour")
 def rgb_of(name: str | None, palette: str = "surface") -> Colour | None:
     """Linear-light RGB of a checked name of one of `PALETTES`; None: no colour is given."""
     return None if name is None else find_colour(name, PALETTES[palette])
+
+
+_NEUTRAL, _CHROMA = (("black", 22.0), ("dark grey", 42.0), ("grey", 82.0), ("white", 101.0)), 9.0
+"""Neutral colours with the CIE lightness up to which they are meant; chroma of the others."""
+_HUES = {one: one for one in ("red", "orange", "yellow", "green", "blue", "purple", "pink",
+                             "brown", "beige")} | {"cyan": "blue-green"}  # fmt: skip
+"""Colour → its basic name."""
+_LIGHTNESS = 0.4
+"""Weight of a difference in lightness between names of hues, beside that in hue and chroma."""
+
+
+def name_colour(colour: Sequence[float] | NDArray[np.floating[Any]]) -> str:
+    """Basic name of a colour in linear-light RGB: neutral, or the nearest hue in CIELAB.
+
+    Example:
+        >>> name_colour((0.5, 0.02, 0.02)), name_colour((0.02, 0.02, 0.02)), name_colour((1, 1, 1))
+        ('red', 'black', 'white')
+    """
+    lightness, *chroma = _to_lab(np.asarray(colour, np.float64))
+    if math.hypot(*chroma) < _CHROMA:
+        return next((name for name, most in _NEUTRAL if lightness <= most), "white")
+
+    def distance(name: str) -> float:
+        other, *hue = _to_lab(np.asarray(SURFACES[name], np.float64))
+        return math.hypot(_LIGHTNESS * (lightness - other), *np.subtract(chroma, hue))
+
+    return _HUES[min(_HUES, key=distance)]
+
+
+def _to_lab(colour: NDArray[np.float64]) -> tuple[float, float, float]:
+    """CIELAB of linear sRGB, white D65."""
+    x, y, z = (_TO_XYZ @ np.clip(colour, 0.0, 1.0)) / _TO_XYZ.sum(axis=1)
+    f, g, h = (one ** (1 / 3) if one > 0.008856 else 7.787 * one + 16 / 116 for one in (x, y, z))
+    return 116.0 * g - 16.0, 500.0 * (f - g), 200.0 * (g - h)
+
+
+_TO_XYZ = np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]])
+"""Linear sRGB to CIE XYZ (IEC 61966-2-1)."""

@@ -20,7 +20,8 @@ from texvent_scenes.checks.looks import is_ball
 from texvent_scenes.checks.places import share_of_sky
 from texvent_scenes.checks.staged_clip import StagedClip
 from texvent_scenes.checks.water import wet_share
-from texvent_scenes.colours import SURFACES, find_colour
+from texvent_scenes.colours import name_colour
+from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.nouns import VARIANTS
 from texvent_scenes.raycast.ground_truth import cast_centres
 from texvent_scenes.raycast.render import world_and_shapes
@@ -29,9 +30,7 @@ from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.surroundings.lighting import DARK
 from texvent_scenes.words import list_plurals
 
-_BASIC = ("black", "dark grey", "grey", "white", "red", "orange", "yellow", "green", "blue",
-          "purple", "pink", "brown", "beige")  # fmt: skip
-_WIDTH, _MUCH, _MOST_COLOURS = 120, 0.25, 2
+_WIDTH, _MUCH, _MOST_COLOURS = 120, 0.15, 3
 """Width of the small pictures in which surfaces are counted, pixels; share of a surface from which
 on a colour is named; most that are."""
 _LEAST_SHARE, _MOST_SCENERY = 0.004, 4
@@ -41,13 +40,16 @@ _STAYS, _STIRS, _TURNS, _HALF = 0.05, 0.01, math.radians(4.0), 0.6
 told; share of a body, of which less is seen than of one that is hidden by half."""
 _SUPPORTED_M, _GROUND_M = 0.06, 0.12
 """Gap to what bears a body, and height above the ground of what stands on it, m."""
-_CAMERA_M, _ZOOM = 0.03, 1.04
-"""Way and ratio of focal lengths of a camera that are told."""
+_CAMERA_M, _ZOOM, _STEEP = 0.03, 1.04, 0.85
+"""Way and ratio of focal lengths of a camera that are told; upward part of the sight of one that
+looks straight down or up."""
 _MATERIALS = {Texture.STRIPES, Texture.CHECKS, Texture.SPOTS, Texture.TILES, Texture.BOARDS,
               Texture.STONE, Texture.CONCRETE, Texture.BRICK, Texture.WOOD, Texture.FUR,
               Texture.FEATHERS, Texture.CLOTH, Texture.METAL, Texture.RUST, Texture.LEATHER,
               Texture.SCALES, Texture.FOLIAGE, Texture.MIRROR}  # fmt: skip
 """Textures that are named, of a surface of which they are the greater part."""
+_ROLLED_DEG = 3.0
+"""Least roll of a camera that is told."""
 _IDLE = ("move", "stand")
 """Activities without a word of their own: the way tells them."""
 _PARTS, _THIRD, _WIDE = ("at its left", "in its middle", "at its right"), 1.0 / 6.0, 0.25
@@ -88,8 +90,8 @@ def _tell_place(staged: StagedClip) -> str:
         times = staged.times[:: len(staged.times) // 2]
         share = max(share_of_sky(scene, one, scene.camera(one)) for one in times)
         facts.append(f"sky in {share:.0%} of the picture" if share >= 0.01 else "no sky in view")
-    if scene.flicker_hz is not None:
-        facts.append(f"light that changes at {scene.flicker_hz:.3g} Hz")
+    if (rate_hz := scene.animated_environment.flicker_hz) is not None:
+        facts.append(f"light that changes at {rate_hz:.3g} Hz")
     return ", ".join(facts)
 
 
@@ -144,20 +146,16 @@ def _tell_object(
 def _list_surfaces(staged: StagedClip) -> dict[int, Counter[tuple[str, Texture]]]:
     """Instance id → colour and texture of its surface, counted over points of small pictures."""
     size = SensorSize(_WIDTH, max(round(_WIDTH * staged.size.height / staged.size.width), 1))
-    basic = np.cbrt([find_colour(name, SURFACES) for name in _BASIC])
     found: dict[int, Counter[tuple[str, Texture]]] = {}
     for time_s in staged.times[:: len(staged.times) // 2]:
         world, shapes = world_and_shapes(staged.scene, time_s, size, shadows=False)
         numbers = cast_centres(world, size).number
-        for number, count in zip(
-            *np.unique(numbers[numbers >= 0], return_counts=True), strict=True
-        ):
-            if (
-                shapes.mesh is None or shapes.mesh[number] is None
-            ):  # those have colours of their own
-                near = np.linalg.norm(basic - np.cbrt(shapes.colour[number]), axis=1)
-                look = _BASIC[int(np.argmin(near))], Texture(int(shapes.texture[number]))
-                found.setdefault(int(shapes.instance[number]), Counter())[look] += int(count)
+        seen = np.unique(numbers[numbers >= 0], return_counts=True)
+        for number, count in zip(*seen, strict=True):
+            if shapes.mesh is not None and shapes.mesh[number] is not None:
+                continue  # its colours are its own
+            look = name_colour(shapes.colour[number]), Texture(int(shapes.texture[number]))
+            found.setdefault(int(shapes.instance[number]), Counter())[look] += int(count)
     return found
 
 
@@ -168,10 +166,10 @@ def _tell_look(surface: Counter[tuple[str, Texture]]) -> str:
         colours[colour] += count
         textures[texture] += count
     (first, _), *others = colours.most_common(_MOST_COLOURS) or [("", 0)]
-    named = [first] + [name for name, count in others if count >= _MUCH * colours.total()]
+    named = [first, *(name for name, count in others if count >= _MUCH * colours.total())]
     mostly = [one.name.lower() for one, count in textures.items()
               if one in _MATERIALS and count >= _HALF * textures.total()]  # fmt: skip
-    return ", ".join(filter(None, [" and ".join(named), *mostly]))
+    return ", ".join(filter(None, [_join(named), *mostly]))
 
 
 def _tell_size(one: Actor) -> str:
@@ -183,34 +181,42 @@ def _tell_size(one: Actor) -> str:
 def _tell_acts(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
     """Its activities in their order, and the way that it goes."""
     states = [one.track.at(time_s).activity for time_s in staged.fine_times]
-    acts = [act for act, _ in groupby(states) if act not in _IDLE]
+    has_acts = one.noun.name in PERSON_NOUNS | HAND_NOUNS or one.noun.acts
+    acts = [act for act, _ in groupby(states) if has_acts and act not in _IDLE]
     facts = [f"acts: {', then '.join(dict.fromkeys(acts))}"] if acts else []
-    way = _tell_way(staged, one, body)
+    way = _tell_way(staged, one)
     if way == "stays" and not acts and staged.departure(one).max() > _STIRS * one.size_m:
         way = "stays, parts of it move"
-    lit = [each for each in staged.scene.lamps.lit if each.actor.instance == one.instance]
-    facts += ["its light blinks"] if any(each.flashes for each in lit) else []
+    rates = [each.fastest_hz for each in staged.scene.lamps.lit
+             if each.actor.instance == one.instance]  # fmt: skip
+    facts += [f"its light changes at {max(rates):.3g} Hz"] if any(rates) else []
     return ", ".join((*facts, way))
 
 
-def _tell_way(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
+def _tell_way(staged: StagedClip, one: Actor) -> str:
     """Ways to a side, to the camera and up; turns of who stays."""
-    middle = np.asarray([one.middle(time_s) for time_s in staged.times])
-    path = float(np.linalg.norm(np.diff(middle, axis=0), axis=1).sum())
+    places = np.asarray([one.middle(time_s) for time_s in staged.fine_times])
+    path = float(np.linalg.norm(np.diff(places, axis=0), axis=1).sum())
     if path <= max(_STAYS * one.size_m, 0.5 * _STAYS):
         turned = np.unwrap([one.track.at(time_s).yaw for time_s in staged.fine_times])
         angle = float(np.ptp(turned))
         return f"turns by {math.degrees(angle):.0f}°" if angle >= _TURNS else "stays"
-    names = (("to the left", "to the right"), ("up", "down"),
-             ("towards the camera", "away from the camera"))  # fmt: skip
+    net = places[-1] - places[0]
+    speed = _round(path / max(staged.duration_s, 1e-9))
+    if float(np.linalg.norm(net)) < 0.3 * path:
+        return f"goes along a way of {_round(path)} m that turns back at {speed} m/s"
+    camera = staged.scene.camera(staged.duration_s / 2.0)
+    is_steep = abs(float(camera.rotation[2][2])) > _STEEP
+    ahead = (-camera.rotation[1] if is_steep else camera.rotation[2]) * [1.0, 1.0, 0.0]
+    ahead /= max(float(np.linalg.norm(ahead)), 1e-9)
+    ends = ("towards the lower edge", "towards the upper edge")
+    depth = ends if is_steep else ("towards the camera", "away from the camera")
+    names = (("to the left", "to the right"), depth, ("down", "up"))
+    axes = np.array([[ahead[1], -ahead[0], 0.0], ahead, [0.0, 0.0, 1.0]])
     ways = [(abs(way), f"{_round(abs(way))} m {name[int(way > 0)]}")
-            for way, name in zip(body.displacement, names, strict=True)]  # fmt: skip
+            for way, name in zip(axes @ net, names, strict=True)]  # fmt: skip
     least = 0.3 * max(length for length, _ in ways)
-    told = [words for length, words in ways if length >= least]
-    speed = path / max(staged.duration_s, 1e-9)
-    net = float(np.linalg.norm(middle[-1] - middle[0]))
-    around = [] if net >= 0.3 * path else [f"along a way of {_round(path)} m that turns back"]
-    return f"goes {_join(around or told)} at {_round(speed)} m/s"
+    return f"goes {_join([words for length, words in ways if length >= least])} at {speed} m/s"
 
 
 def _tell_place_of(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
@@ -250,6 +256,8 @@ def _tell_side(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
     if not one.noun.speed_m_s or is_ball(one):
         return ""
     sight = (body.middle - np.array([staged.scene.camera(t).position for t in staged.times]))[0, :2]
+    if abs(float(staged.scene.camera(0.0).rotation[2][2])) > _STEEP:
+        return "seen from above or below"
     cosine = float(-sight @ body.ahead[0]) / max(float(np.linalg.norm(sight)), 1e-9)
     return f"seen {_SIDES[int(np.digitize(cosine, (-0.7, 0.7)))]}"
 
@@ -285,6 +293,8 @@ def _tell_camera(staged: StagedClip) -> str:
     facts = [f"{_round(first.position[2])} m above the ground"] if has_ground else []
     level = "level" if abs(pitch) < 3.0 else f"{abs(pitch):.0f}° {'up' if pitch > 0 else 'down'}"
     facts += [f"looks {level}"]
+    roll = math.degrees(math.asin(float(np.clip(first.rotation[0][2], -1.0, 1.0))))
+    facts += [f"rolled by {abs(roll):.0f}°"] if abs(roll) >= _ROLLED_DEG else []
     moves = [*_list_camera_moves(cameras), *_list_zooms(first, last)]
     return f"camera: {', '.join(facts)}, {_join(moves) if moves else 'stays'}"
 

@@ -211,7 +211,7 @@ def _list_notes(
 ) -> Iterator[str]:  # fmt: skip
     """Notes of bodies that are hidden, cut off, in the way, or leave the view."""
     cameras, times, size, _ = clip
-    yield from list_hidden(scene, seen, cameras, times, size)
+    yield from list_hidden(scene, seen, cameras, times, size, _grid_of(size)[0] ** 2)
     yield from list_own_walls(scene, description)
     yield from list_headless(description, scene.actors, cameras, times, size)
     yield from list_covering(scene, description, seen, _count_points(size), times, unseen)

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from texvent.camera import PosedCamera
+from texvent.camera import PosedCamera, project
 from texvent.sensor import SensorSize
 from texvent_scenes.checks.body_boxes import is_any_inside
 from texvent_scenes.checks.relations import Violation
@@ -41,8 +41,9 @@ _HURRIED, _STEPS = 0.75, 49
 """Share of a pace from which on it is reached; instants between which speeds are measured."""
 _DONE = 0.7
 """Share of an act from which on one sees that it is done."""
-_TOLD = 4
-"""Points of the image from which on a body is no speck."""
+_TOLD, _SURELY = 4, 16
+"""Points of the image from which on a body is no speck; those in its box of which one is surely on
+it."""
 
 
 def find_undone(
@@ -199,15 +200,34 @@ def list_departures(
             yield f"the {one.name} is in view for {sum(inside) / len(inside):.0%} of the clip"
 
 
+def _area_px(corners: Float64Array, camera: PosedCamera, size: SensorSize) -> float:
+    """Area of the box around points [n, 3], m, in the image, pixels; of some behind it none."""
+    x, y, depth = project(camera, size, corners).T
+    inside = np.clip(x, 0.0, size.width), np.clip(y, 0.0, size.height)
+    return float(np.ptp(inside[0]) * np.ptp(inside[1])) if depth.min() > 0.0 else 0.0
+
+
 def list_hidden(
     scene: ComposedScene, seen: Mapping[int, Sequence[int]], cameras: Sequence[PosedCamera],
-    times: Sequence[float], size: SensorSize,
+    times: Sequence[float], size: SensorSize, point_px: int,
 ) -> Iterator[str]:  # fmt: skip
-    """Notes on what something else hides for a part of the clip, such as a tunnel."""
+    """Notes on what something else hides for a part of the clip, such as a tunnel.
+
+    Of what is so far away that the grid of points may miss it, nothing is told.
+
+    Args:
+        scene: the staged scene.
+        seen: instance id → points of the grid that show it at each instant.
+        cameras: of the instants.
+        times: instants, s.
+        size: of the image, pixels.
+        point_px: pixels for each point of the grid.
+    """
+    least_px = _SURELY * point_px
     flashing = {one.actor.instance for one in scene.lamps.lit if one.flashes}
     for one in (each for each in scene.actors if each.instance not in flashing):
         counts = seen[one.instance]
-        gone = [not count and is_any_inside(one.corners(time_s), camera, size)
+        gone = [not count and _area_px(one.corners(time_s), camera, size) >= least_px
                 for count, time_s, camera in zip(counts, times, cameras, strict=True)]  # fmt: skip
         if max(counts) >= _TOLD and sum(gone) > 1:
             yield f"the {one.name} is hidden for {sum(gone) / len(gone):.0%} of the clip"
