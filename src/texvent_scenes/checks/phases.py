@@ -116,7 +116,7 @@ def find_unfinished(description: SceneDescription, duration_s: float) -> Iterato
 
 
 def runs(staged: StagedClip, claim: Claim) -> bool:
-    """Whether each body is faster at some instant than it would walk.
+    """Whether each body is faster at some instant than half a run, or half the pace of a trot.
 
     Of what is carried, climbs or is at a machine, such as a treadmill, its places do not tell.
     """
@@ -125,9 +125,10 @@ def runs(staged: StagedClip, claim: Claim) -> bool:
     targets = {objects[n].noun for one in own for n in one.targets}
     is_at_work = any(NOUNS[one].is_working for one in targets if one in NOUNS)
     is_climbing = any(one.kind in ("up", "down") for one in own)
+    least = _RUNNING * min(float(claim.value), 1.0)
     return is_at_work or is_climbing or all(
         one.track.anchor is not None
-        or _fastest(one, staged.times) >= _RUNNING * usual_speed(one.noun, "run")
+        or _fastest(one, staged.times) >= least * usual_speed(one.noun, "run")
         for one in staged.own(claim)
     )  # fmt: skip
 

@@ -99,6 +99,8 @@ _COVERED = 0.6
 _LARGE, _TELLING = 0.25, 0.12
 """Least size of what is close to the camera, and of that of which one sees parts, as a share of its
 distance."""
+_LOW = 0.3
+"""Height of what one steps over, in heights of a body."""
 _LIT_SHARE = 0.5
 """Share of the period of a lamp that blinks for which it is lit."""
 _MOSTLY = 0.75
@@ -190,6 +192,14 @@ def _leaves_gap(staged: StagedClip, claim: Claim) -> bool:
     near = [sum(bool(RULES["at"](one, other)[0]) for other in others)
             for one in staged.own_boxes(claim)]  # fmt: skip
     return first and not last and min(near, default=0) >= 2
+
+
+def _is_on_edge(staged: StagedClip, claim: Claim) -> bool:
+    """Whether it is on what it goes along the edge of, or that is as low as the ground: a pool."""
+    others = [one for n in claim.targets for one in staged.boxes[n]]
+    is_low = all(other.size[0, 2] <= _LOW * one.size[0, 2]
+                 for one in staged.own_boxes(claim) for other in others)  # fmt: skip
+    return is_low or staged.relates(claim, "on")
 
 
 def _is_row(staged: StagedClip, claim: Claim) -> bool:
@@ -358,6 +368,7 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "rounds": _of_parts(goes_round),
     "turn": turns, "begin": begins, "near": _is_near, "pace": changes_pace,
     "in image": _stays_in_image, "run": runs, "out between": _leaves_gap,
+    "on edge": _is_on_edge,
     "sky": lambda staged, _: shows_sky(staged.scene, staged.times),
     "sky behind": _is_before_sky, "taken in": _is_taken_in,
     "sit at": _sits_at, "macro": is_macro, "overtaken": is_overtaken, "cover": _covers,
