@@ -14,8 +14,10 @@ from texvent.camera import PosedCamera, project
 from texvent.sensor import SensorSize
 from texvent_scenes.checks.body_boxes import is_any_inside
 from texvent_scenes.checks.relations import Violation
-from texvent_scenes.description import SceneDescription, label_of
+from texvent_scenes.checks.staged_clip import StagedClip
+from texvent_scenes.description import Claim, SceneDescription, label_of
 from texvent_scenes.models.activities import ACTIVITIES, MOUTH_ACTIVITIES, PERSON_NOUNS
+from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.rendered_scene import Float64Array, Ground
 from texvent_scenes.spec.scene import SceneObject
@@ -39,6 +41,8 @@ _LEAST_CLIP_S = 1.0
 """Length of a clip, s, in which motions get so far that they are judged."""
 _HURRIED, _STEPS = 0.75, 49
 """Share of a pace from which on it is reached; instants between which speeds are measured."""
+_RUNNING = 0.5
+"""Share of its usual speed from which on a body runs."""
 _DONE = 0.7
 """Share of an act from which on one sees that it is done."""
 _TOLD, _SURELY = 4, 16
@@ -110,6 +114,24 @@ def find_unfinished(description: SceneDescription, duration_s: float) -> Iterato
                 name = label_of(description, index)
                 line = f"the {name}'s {kind}: the clip ends before it is done"
                 yield Violation("motion", kind, line)
+
+
+def runs(staged: StagedClip, claim: Claim) -> bool:
+    """Whether each body is faster at some instant than half a run, or half the pace of a trot.
+
+    Of what is carried, climbs or is at a machine, such as a treadmill, its places do not tell.
+    """
+    objects, said = staged.description.objects, staged.description.relations
+    own = [one for one in said if one.subject == claim.subject]
+    targets = {objects[n].noun for one in own for n in one.targets}
+    is_at_work = any(NOUNS[one].is_working for one in targets if one in NOUNS)
+    is_climbing = any(one.kind in ("up", "down") for one in own)
+    least = _RUNNING * min(float(claim.value), 1.0)
+    return is_at_work or is_climbing or all(
+        one.track.anchor is not None
+        or _fastest(one, staged.times) >= least * usual_speed(one.noun, "run")
+        for one in staged.own(claim)
+    )  # fmt: skip
 
 
 def _fastest(one: Actor, times: Sequence[float]) -> float:

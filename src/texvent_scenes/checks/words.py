@@ -60,7 +60,9 @@ from texvent_scenes.checks.parts import (
     is_moving_inside,
     is_of_material,
 )
+from texvent_scenes.checks.phases import runs
 from texvent_scenes.checks.places import is_before_sky, shows_sky
+from texvent_scenes.checks.relation_rules import RULES
 from texvent_scenes.checks.staged_clip import StagedClip
 from texvent_scenes.checks.water import is_above_way, wet_share
 from texvent_scenes.description import SEEN, Claim, SceneDescription
@@ -86,6 +88,8 @@ _DONE = (
     "turn",
     "rounds",
     "begin",
+    "run",
+    "out between",
 )
 """Length of a clip in which motions get so far that they are judged, s; claims of read motions."""
 _OF_CAMERA = (SEEN, "circle", "camera", "macro", "eye level", "sky")
@@ -95,6 +99,8 @@ _COVERED = 0.6
 _LARGE, _TELLING = 0.25, 0.12
 """Least size of what is close to the camera, and of that of which one sees parts, as a share of its
 distance."""
+_LOW = 0.3
+"""Height of what one steps over, in heights of a body."""
 _LIT_SHARE = 0.5
 """Share of the period of a lamp that blinks for which it is lit."""
 _MOSTLY = 0.75
@@ -177,6 +183,23 @@ def _arrives(staged: StagedClip, claim: Claim) -> bool:
     kind = str(claim.value)
     first, last = (staged.relates(claim, kind, when) for when in (slice(1), slice(-1, None)))
     return last and not first
+
+
+def _leaves_gap(staged: StagedClip, claim: Claim) -> bool:
+    """Whether it is between two that are near at first, and no more at the end: "out between"."""
+    first, last = (staged.relates(claim, "between", when) for when in (slice(1), slice(-1, None)))
+    others = [one for n in claim.targets for one in staged.boxes[n]]
+    near = [sum(bool(RULES["at"](one, other)[0]) for other in others)
+            for one in staged.own_boxes(claim)]  # fmt: skip
+    return first and not last and min(near, default=0) >= 2
+
+
+def _is_on_edge(staged: StagedClip, claim: Claim) -> bool:
+    """Whether it is on what it goes along the edge of, or that is as low as the ground: a pool."""
+    others = [one for n in claim.targets for one in staged.boxes[n]]
+    is_low = all(other.size[0, 2] <= _LOW * one.size[0, 2]
+                 for one in staged.own_boxes(claim) for other in others)  # fmt: skip
+    return is_low or staged.relates(claim, "on")
 
 
 def _is_row(staged: StagedClip, claim: Claim) -> bool:
@@ -344,7 +367,8 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "grip": handles_by_hand, "camera": is_camera_so, "stop": stops, "move": moves, "tip": tips,
     "rounds": _of_parts(goes_round),
     "turn": turns, "begin": begins, "near": _is_near, "pace": changes_pace,
-    "in image": _stays_in_image,
+    "in image": _stays_in_image, "run": runs, "out between": _leaves_gap,
+    "on edge": _is_on_edge,
     "sky": lambda staged, _: shows_sky(staged.scene, staged.times),
     "sky behind": _is_before_sky, "taken in": _is_taken_in,
     "sit at": _sits_at, "macro": is_macro, "overtaken": is_overtaken, "cover": _covers,

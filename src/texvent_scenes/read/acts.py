@@ -342,6 +342,7 @@ def _claim_outcome(
     outcomes = word_table("outcomes")
     if outcome := outcomes.get(act.who, {}).get(act.kind):
         draft.claim(verb, outcome, "", [index])
+    draft.claim(verb, "run", act.pace, [index] if act.kind == "run" else [])
     if act.kind == "work" and verb.text.split()[-1] in word_set("things", "rounds"):
         draft.claim(verb, "rounds", "", [index])
     is_machine = draft.things[index]["noun"] in trait_values("gripper")

@@ -226,8 +226,11 @@ def claim_relation(
         draft.claim(token, "sit at", "", subjects, targets)
     if is_shown and token.text == "by" and nouns <= HAND_NOUNS and does - {"stand"}:
         draft.claim(token, "grip", "hold", targets, subjects)  # "tilted by hand"
+    if is_shown and kind == "between" and token.text.endswith(" between"):
+        draft.claim(token, "out between", "", subjects, targets)
     if is_shown and token.text == "along":
         draft.claim(token, "along", "", subjects, targets)
+        _claim_edge(draft, token, subjects, targets)
     if is_shown and kind in ("up", "down"):
         draft.claim(token, "relation", kind, subjects, targets)
     elif is_shown and kind == "front" and any(stops):
@@ -236,6 +239,14 @@ def claim_relation(
         draft.claim(token, "arrive", _ARRIVALS[token.text], subjects, targets)
     elif not is_shown and kind in _CLAIMED:
         draft.claim(token, "off" if kind == "off" else "relation", kind, subjects, targets)
+
+
+def _claim_edge(draft: SceneDraft, token: Token, subjects: Indices, targets: Indices) -> None:
+    """Leave it to the staged scene whether who goes along a part is on it: "the edge of a roof"."""
+    article = draft.beside(token, 1).has("articles")
+    part = draft.beside(token, 1 + article)
+    for one in (token, part) if part.has("partitive") else ():
+        draft.claim(one, "on edge", "", subjects, targets)
 
 
 def set_before(draft: SceneDraft, token: Token, noun: str, subjects: Indices) -> bool:
