@@ -95,6 +95,8 @@ class EffectWords:
     """Point where it leaves its object: x and y in half extents, z in heights from below."""
     anchor_traits: tuple[str, ...] = ()
     """Traits that say so for some nouns, tried in order."""
+    from_work: bool = False
+    """Whether it leaves a tool at the part of it that goes round, such as a disc."""
     emitters: tuple[EmitterStyle, ...] = ()
 
 
