@@ -53,6 +53,9 @@ _STILL_M, _ROUND, _LEAST_ARC = 1e-3, 0.08, math.pi / 3.0
 """Extent of a way that goes nowhere, m; most departure of a way from its circle, in radii; least
 angle of that circle that it covers."""
 
+_WALLS = 0.3
+"""Least share of the image that shows the walls of what a camera is in."""
+
 
 def stops_before(staged: StagedClip, claim: Claim) -> bool:
     """Whether it comes to rest on its way, before what it stops for."""
@@ -364,11 +367,12 @@ def bounces(staged: StagedClip, claim: Claim) -> bool:
 
 
 def comes_out(staged: StagedClip, claim: Claim) -> bool:
-    """Whether the camera is in something at first and no more at the end."""
+    """Whether the camera is in something at first, whose walls it sees, and no more at the end."""
     bodies = [one for n in claim.targets for one in staged.list_actors(n)]
     ends = [[is_inside(one, staged.scene.camera(at).position, at) for one in bodies]
             for at in (0.0, staged.duration_s)]  # fmt: skip
-    return any(ends[0]) and not any(ends[1])
+    walls = staged.share_of({one.instance for one in bodies}, 0.0)
+    return any(ends[0]) and not any(ends[1]) and walls >= _WALLS
 
 
 def breaks(staged: StagedClip, claim: Claim) -> bool:

@@ -1,4 +1,4 @@
-"""Lit-lamp check: lamps of a colour that shine, and that the image shows."""
+"""Lit-lamp check: lamps of a name or a colour that shine, and that the image shows."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from texvent_scenes.models.materials import has_colour
 from texvent_scenes.raycast.ground_truth import visible_instances
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor
+from texvent_scenes.staging.surroundings.lamps import LitActor
 
 _DEEP_M = 0.4
 """Depth up to which a lamp may be inside of what is seen before it, m: of its own glass."""
@@ -26,6 +27,26 @@ def shows_lit_colour(staged: StagedClip, claim: Claim) -> bool:
     rgb = find_colour(str(claim.value), SURFACES)
     return all(any(_is_any_seen(staged, _list_places(staged, one, rgb, at), at)
                    for at in staged.times) for one in own)  # fmt: skip
+
+
+def shows_lamp(staged: StagedClip, claim: Claim) -> bool:
+    """Whether a lamp of a name, such as "headlight", is on and in the image at some instant.
+
+    One of several copies is enough: of traffic that comes and goes, some cars show theirs.
+    """
+    own = {one.instance for one in staged.own(claim)}
+    lit = [one for one in staged.scene.lamps.lit if one.actor.instance in own]
+    return any(_is_any_seen(staged, _list_lit(one, str(claim.value), at), at)
+               for one in lit for at in staged.times)  # fmt: skip
+
+
+def _list_lit(one: LitActor, name: str, time_s: float) -> Float64Array:
+    """[n, 3] Places of the lamps of a name that are on at an instant, m."""
+    placed = one.actor.place(time_s)
+    middles = [placed.parts[index].to_body[:, 3] for index, _, lamp in one.lamps
+               if lamp.name == name and one.level(lamp, time_s) > 0.0]  # fmt: skip
+    to_world = placed.to_world
+    return np.asarray(np.reshape(middles, (-1, 3)) @ to_world[:, :3].T + to_world[:, 3])
 
 
 def _list_places(

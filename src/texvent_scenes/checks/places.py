@@ -198,6 +198,20 @@ def shows_sky(scene: ComposedScene, times: Sequence[float]) -> bool:
     return any(share_of_sky(scene, one, scene.camera(one)) >= _LEAST_SKY for one in times)
 
 
+def shows_sun(scene: ComposedScene, times: Sequence[float], size: SensorSize) -> bool:
+    """Whether nothing stands before the sun's disc in the image at one of some instants."""
+    for time_s in times:
+        camera = scene.camera(time_s)
+        sun = camera.position + _FAR_M * np.asarray(scene.environment(time_s).sun_direction)
+        (point,) = project(camera, size, sun[None])
+        is_ahead = point[2] > 0.0 and (point[:2] > 0.0).all()
+        if is_ahead and (point[:2] < [size.width, size.height]).all():
+            depth, _ = visible_instances(scene, time_s, size, point[None, :2])
+            if np.isinf(depth).all():
+                return True
+    return False
+
+
 def share_of_sky(scene: ComposedScene, time_s: float, camera: PosedCamera) -> float:
     """Share of an image that nothing stands before."""
     x, y = np.meshgrid(np.arange(_SIZE.width) + 0.5, np.arange(_SIZE.height) + 0.5)

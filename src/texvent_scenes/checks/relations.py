@@ -54,6 +54,8 @@ _ON_SIDE = {"front": "front of a body", "behind": "behind a body"}
 """Relations to who has a face, which are of that body as well as of the image."""
 _PASSED_ALL = ("past", "overtake")
 """Relations that last where both go, and those that hold of all targets: "passes two cars"."""
+_PASSAGE = "through an opening"
+"""Rule of gates, of which who goes through several goes through each."""
 _ROW = 4
 """Targets from which on they are a row, of which it passes some."""
 _BY = ("at", "to", "towards")
@@ -114,10 +116,13 @@ def find_violations(
             one.kind == "beside" and are_driven(description.objects[who].noun)
         )
         least = 1 if is_queue else _MOST_COPIES * len(own)  # only the first stands at the light
-        if sum(held) < least or not own:
+        passed = [any(holds(kind, body, [each]) for body in own) for each in others]
+        is_part = kind == _PASSAGE and not all(passed)
+        if sum(held) < least or not own or is_part:
             targets = " and ".join(names[target] for target in one.targets)
             said = _SAID.get(one.kind, one.kind)
             line = f"{names[one.subject]} {said} {targets}"
+            line += f": {sum(passed)} of {len(passed)}" if is_part and any(passed) else ""
             yield Violation("relation", one.kind, line if own and others else "")
             yield from _list_read_as(one.kind, description)
     passing = {one.subject for one in description.relations if one.kind in ("past", "overtake")}
@@ -209,7 +214,7 @@ def _rule_for(kind: str, who: SceneObject, what: SceneObject) -> str:
     if kind in ("front", "behind") and _is_walker(what):
         return _ON_SIDE[kind]
     if kind == "through" and target in nouns_with("passage"):
-        return "through an opening"
+        return _PASSAGE
     if kind == "in" and trait_value("container", target) is not None:
         is_swimmer = noun in NOUNS and NOUNS[noun].habitat == "water" and noun not in AFLOAT
         is_seen = target in nouns_with("see-through")

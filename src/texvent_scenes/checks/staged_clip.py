@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -14,10 +14,13 @@ from texvent_scenes.checks.body_boxes import BodyBoxes, body_of
 from texvent_scenes.checks.relations import find_violations
 from texvent_scenes.description import Claim, IndexedRelation, SceneDescription
 from texvent_scenes.models.tables import trait_value
+from texvent_scenes.raycast.ground_truth import visible_instances
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.compose import ComposedScene
 
+_COARSE = SensorSize(40, 30)
+"""Size of a coarse image."""
 _INSTANTS, _PER_S, _MOST = 9, 24.0, 1000
 """Instants at which bodies are compared; per second and at most, those that count repetitions."""
 
@@ -78,6 +81,13 @@ class StagedClip:
         """Whether a part of a body is neither left nor right of the image."""
         x = project(self.scene.camera(time_s), self.size, actor.corners(time_s))[:, 0]
         return bool(((x >= 0.0) & (x <= self.size.width)).any())
+
+    def share_of(self, instances: Collection[int], time_s: float) -> float:
+        """Share of the image that shows some bodies at an instant."""
+        x, y = np.meshgrid(np.arange(_COARSE.width) + 0.5, np.arange(_COARSE.height) + 0.5)
+        points = np.stack([x, y], axis=-1).reshape(-1, 2)
+        _, seen = visible_instances(self.scene, time_s, _COARSE, points)
+        return float(np.isin(seen, [*instances]).mean())
 
     def places(self, actor: Actor) -> Float64Array:
         """[t, n, 3] Places of its parts, beside its own place on the ground, m."""

@@ -50,7 +50,7 @@ from texvent_scenes.checks.camera_ways import (
     is_overtaken,
 )
 from texvent_scenes.checks.grips import handles_by_hand
-from texvent_scenes.checks.lit import shows_lit_colour
+from texvent_scenes.checks.lit import shows_lamp, shows_lit_colour
 from texvent_scenes.checks.looks import has_look
 from texvent_scenes.checks.parts import (
     Place,
@@ -61,7 +61,7 @@ from texvent_scenes.checks.parts import (
     is_of_material,
 )
 from texvent_scenes.checks.phases import runs
-from texvent_scenes.checks.places import is_before_sky, shows_sky
+from texvent_scenes.checks.places import is_before_sky, shows_sky, shows_sun
 from texvent_scenes.checks.relation_rules import RULES
 from texvent_scenes.checks.staged_clip import StagedClip
 from texvent_scenes.checks.water import is_above_way, wet_share
@@ -92,7 +92,7 @@ _DONE = (
     "out between",
 )
 """Length of a clip in which motions get so far that they are judged, s; claims of read motions."""
-_OF_CAMERA = (SEEN, "circle", "camera", "macro", "eye level", "sky")
+_OF_CAMERA = (SEEN, "circle", "camera", "macro", "eye level", "sky", "sun")
 """Claims that may be made of the camera."""
 _COVERED = 0.6
 """Most distance in the image of what is covered, in half extents of both."""
@@ -352,7 +352,7 @@ def _is_before_sky(staged: StagedClip, claim: Claim) -> bool:
 CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "colour": _of_parts(has_colour), "material": _of_parts(is_of_material),
     "look": _of_parts(has_look),
-    "blink": _of_parts(is_blinking), "lit colour": shows_lit_colour,
+    "blink": _of_parts(is_blinking), "lit colour": shows_lit_colour, "lamp": shows_lamp,
      "relation": _is_related, "off": _leaves,
     "arrive": _arrives, "stop before": stops_before, "row": _is_row, "stack": _is_stack,
     "times": repeats,
@@ -370,6 +370,7 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "in image": _stays_in_image, "run": runs, "out between": _leaves_gap,
     "on edge": _is_on_edge,
     "sky": lambda staged, _: shows_sky(staged.scene, staged.times),
+    "sun": lambda staged, _: shows_sun(staged.scene, staged.times, staged.size),
     "sky behind": _is_before_sky, "taken in": _is_taken_in,
     "sit at": _sits_at, "macro": is_macro, "overtaken": is_overtaken, "cover": _covers,
     "eye level": is_at_eye_level, "above way": is_above_way, "part": _tells_parts,

@@ -95,6 +95,8 @@ class EffectWords:
     """Point where it leaves its object: x and y in half extents, z in heights from below."""
     anchor_traits: tuple[str, ...] = ()
     """Traits that say so for some nouns, tried in order."""
+    from_work: bool = False
+    """Whether it leaves a tool at the part of it that goes round, such as a disc."""
     emitters: tuple[EmitterStyle, ...] = ()
 
 
@@ -160,9 +162,13 @@ class LampKind:
     """Frequency at which the model itself modulates its part."""
     turns_hz: float = 0.0
     """Turns of its beam round the upright axis each second."""
+    name: str = ""
+    """Such as "headlight"."""
 
 
-_KINDS = {kind: LampKind(**row) for kind, row in frozen(trait_values("lamp kind")).items()}
+_KINDS = {
+    kind: LampKind(name=kind, **row) for kind, row in frozen(trait_values("lamp kind")).items()
+}
 LAMPS: Mapping[str, tuple[LampKind, ...]] = MappingProxyType(
     {noun: tuple(_KINDS[one] for one in own) for noun, own in trait_values("lamps").items()}
 )

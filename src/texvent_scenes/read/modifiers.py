@@ -21,6 +21,7 @@ from texvent_scenes.read.draft.setting import set_scene
 from texvent_scenes.read.parsing.groups import Group
 from texvent_scenes.read.parsing.lexicon import Sense, VerbSense, word_set, word_table
 from texvent_scenes.read.parsing.tokens import Token
+from texvent_scenes.read.parts import claim_lamps
 from texvent_scenes.read.prepositions import set_before
 
 _IN_WIND = frozenset({"sway", "fly", "float", "hover", "sail"})
@@ -106,6 +107,7 @@ def say_word(draft: SceneDraft, token: Token, subjects: Indices) -> None:
         draft.claim(token, "near", "", subjects if is_close else [])
         is_lamp = field == "rate_hz" and all("blink_hz" in one for one in things)
         draft.claim(token, "shine" if is_lamp else SEEN, "", subjects)
+        claim_lamps(draft, token, subjects if field == "is_lit" else [])
     else:
         if not set_scene(draft, token, things) and things and token.verbs("ing", "ed"):
             perform(draft, token, subjects, [], False)

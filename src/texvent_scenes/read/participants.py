@@ -189,7 +189,8 @@ def do_verb(
     is_own = bool(kinds & word_set("effects", "motions")) or kind == "out of"
     if not subjects and clause.is_of_effect and is_own:
         draft.show(verb)  # "smoke rises from a chimney", as it does by itself
-        if kind == "out of" and objects:  # "drops leave a nozzle"
+        is_off = kind == "out of" or verb.text.endswith(" off")
+        if is_off and objects:  # "drops leave a nozzle", "sparks fly off a grinder"
             draft.effects[-1]["source"] = objects[0]
         return [], []
     if found is not None:

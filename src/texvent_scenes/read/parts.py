@@ -125,6 +125,16 @@ def _say_of_part(draft: SceneDraft, word: Token, part: str, owners: Indices) -> 
         return  # "with shiny blades"
     draft.show(word)
     claim_fine(draft, word, owners)
+    claim_lamps(draft, word, owners)
+
+
+def claim_lamps(draft: SceneDraft, token: Token, owners: Indices) -> None:
+    """Leave it to the staged scene whether one sees lamps that a word names: "headlights"."""
+    for index in owners:
+        kinds = {one.name for one in LAMPS.get(draft.things[index]["noun"], ())}
+        is_off = draft.things[index].get("is_lit") is False
+        for name in sorted(one for one in kinds if one in token.text and not is_off):
+            draft.claim(token, "lamp", name, [index])
 
 
 def claim_fine(draft: SceneDraft, token: Token, owners: Indices) -> None:

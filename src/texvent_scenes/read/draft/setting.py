@@ -47,10 +47,14 @@ def set_scene(draft: SceneDraft, token: Token, things: Sequence[Any] = ()) -> bo
     is_said = token.has("shot", "scene")
     lights = [value for part, name, value in said if (part, name) == ("light", "kind")]
     is_sun = bool(lights) and token.text in word_set("things", "suns")
+    is_low = "sun" in token.text.split() and bool({*lights} & {*_LOW_SUNS}) and not is_sun
+    draft.claim(token, "sun", "", [None] if is_low else [])
     draft.mark(token, lights[0]) if is_sun else draft.show(*([token] if is_said else []))
     return is_said
 
 
+_LOW_SUNS = ("dusk", "dawn")
+"""Lights whose sun is so low that a word for it is one for a thing to be seen: "low sun"."""
 _DAYLIGHTS = ("day", "sunny", "morning", "afternoon", "overcast", "stormy")
 """Lights of the day, from that which tells least: of "an overcast morning" no sun is seen."""
 

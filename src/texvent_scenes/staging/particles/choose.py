@@ -10,7 +10,9 @@ import numpy as np
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.effects import EFFECTS, LAMPS, EmitterStyle
 from texvent_scenes.models.places import PLACES
+from texvent_scenes.models.shapes import bounds
 from texvent_scenes.models.tables import trait_value
+from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.scene import Effect, object_ids
 from texvent_scenes.staging.actors import Actor, seeded
 from texvent_scenes.staging.particles.effect import (
@@ -26,6 +28,8 @@ gives its colour to pieces."""
 _RATE_HZ, _DEEP, _MOST_SPLASH_M = 60.0, 0.3, 1.2
 """Instants per second at which a splash is looked for; depth from which on it is one, in heights of
 the body; greatest size of one, m."""
+_TURN_S = 0.02
+"""Time in which a part that goes round has turned, s."""
 _GLINT = 0.1
 """Light of drops and flakes at night, as a share of that of a white surface by day."""
 FALLING = ("rain", "snow")
@@ -166,4 +170,22 @@ def _source(kind: str, actor: Actor | None, setting: Setting) -> Source:
     x, y, z = next((one for one in known if one is not None), words.anchor)
     height = z * model.height - actor.foot_m
     point = np.array([0.5 * x * model.length, 0.5 * y * model.width, height])
+    is_tool = words.from_work and actor.noun.is_working
+    edge = _find_working_edge(actor) if is_tool else None
+    point = point if edge is None else edge
     return Source(words.size * actor.mean_size_m, point, actor)
+
+
+def _find_working_edge(actor: Actor) -> Float64Array | None:
+    """[3] lowest point of the part that goes round in a body, in its coordinates, m.
+
+    That is where the disc of a grinder or the blade of a saw meets the work; None: no part does.
+    """
+    first, later = (actor.own_parts(actor.pose(time_s)) for time_s in (0.0, _TURN_S))
+    parts = [one for one, other in zip(first, later, strict=True)
+             if not np.allclose(one.to_body, other.to_body)]  # fmt: skip
+    if not parts:
+        return None
+    low, high = bounds(parts)
+    middle = 0.5 * (np.asarray(low) + np.asarray(high))
+    return np.array([middle[0], middle[1], low[2]])

@@ -23,6 +23,8 @@ _ALONG, _PANEL = 0.8, 0.96
 """Share of the way along a fence that is beside it; from panel to panel, in widths of one."""
 _EDGE_M, _AHEAD_M = 0.2, 2.0
 """Gap between a train and its platform, whose middle is so far ahead of that of the train, m."""
+_PASSED = 0.7
+"""Share of a way between the first and the last of several gates on it."""
 _AT_DOOR_M, _QUEUE_M = 0.3, 1.2
 """From the wall of a house to the middle of who has come out of it; gap between those who wait or
 stop one before the other, m."""
@@ -83,8 +85,20 @@ def _lead_through(group: ObjectGroup, subject: ObjectGroup, height: float) -> Go
         group.plan = replace(group.plan, yaw=subject.plan.yaw)
         group.fit()
     extent = 2.0 * float(max(subject.half[:2])) - subject.models[0].length
+    if len(group.models) > 1 and group.noun.name in nouns_with("passage"):
+        _line_up(group, subject, extent)
+        return Goal(subject.to_world(0.0, 0.0, height - subject.centre[2]), _FIXED)
     back = min(0.1 * extent + 0.5 * group.models[0].length, 0.45 * extent)
     return Goal(subject.to_world(-back, 0.0, height - subject.centre[2]), _FIXED)
+
+
+def _line_up(group: ObjectGroup, subject: ObjectGroup, extent_m: float) -> None:
+    """Line up passages along the way of who goes through one after the other."""
+    count, yaw = len(group.models), subject.plan.yaw
+    apart_m = _PASSED * extent_m / (count - 1)
+    places = [(number - 0.5 * (count - 1)) * apart_m for number in range(count)]
+    group.offsets = [(one * math.cos(yaw), one * math.sin(yaw), 0.0) for one in places]
+    group.fit()
 
 
 def _lead_out(group: ObjectGroup, subject: ObjectGroup, height: float) -> Goal:
