@@ -28,6 +28,8 @@ _OUT, _BACK, _STILL = 0.6, 0.3, 1e-3
 departure below which a body does not move, in its sizes."""
 _GROUNDED = 0.1
 """Height, in sizes of a body, up to which it is on the ground."""
+_MEETINGS, _JUST_S = 97, 1e-3
+"""Instants at which it may come down on that; time before it breaks at which it is whole, s."""
 _NEAR_END, _RESTING = 3.0, 0.15
 """Gap before what something stops for, in its lengths; speed at the end, as a share of the mean."""
 _HANDS, _REACH = ("left hand", "right hand"), 0.12
@@ -230,6 +232,17 @@ def keeps_to_ground(staged: StagedClip, claim: Claim) -> bool:
             gaps = np.minimum(gaps, over)
         is_near = gaps <= _GROUNDED * one.size_m
         if not (is_near.mean() >= 0.5 if claim.value else not is_near.all()):
+            return False
+    return True
+
+
+def meets_ground(staged: StagedClip, claim: Claim) -> bool:
+    """Whether it is on the ground for half of the clip, or comes down on it at some instant."""
+    for one in staged.own(claim):
+        end_s = staged.duration_s if one.breaks_s is None else one.breaks_s - _JUST_S
+        low = np.array([one.lowest_m(time_s) for time_s in np.linspace(0.0, end_s, _MEETINGS)])
+        is_low = np.abs(low) <= _GROUNDED * one.size_m
+        if not (is_low.mean() >= 0.5 or (is_low.any() and not is_low[0])):
             return False
     return True
 

@@ -71,7 +71,8 @@ _REMNANT = 0.004
 """Share of the image below which an object is hidden too of which less than `LEAST_INSIDE` is
 seen: the end of a pier behind a boat."""
 _PART = 0.03
-"""Share of the image from which on climbing what is cut off is seen: the trunk of a tree."""
+"""Share of the image from which on a way along or off what is cut off is seen: of a trunk, of a
+table."""
 _FILLED = (0.1, 0.4)
 """Shares of the image that tell what something is of which less than `LEAST_INSIDE` is inside, or
 even than `LEAST_SEEN`: a wall of a garage is none."""
@@ -126,7 +127,7 @@ def find_unseen(
     clip = _Clip(cameras, times, size, description.camera.is_moving)
     related = _list_related(description)
     climbed = {i for one in description.relations for i in one.targets
-               if one.kind in ("up", "down")}  # fmt: skip
+               if one.kind in ("up", "down", "off")}  # fmt: skip
     is_close = description.camera.framing == "close" and scene.actors
     close = choose_main(description, scene.actors).object_index if is_close else None
     outside, small, bodies = list[str](), list[str](), list[list[BodyBoxes]]()

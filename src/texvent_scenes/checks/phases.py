@@ -6,6 +6,7 @@ on, come to rest, rise, come down or turn, as the motion says.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
@@ -249,7 +250,9 @@ def list_hidden(
     flashing = {one.actor.instance for one in scene.lamps.lit if one.flashes}
     for one in (each for each in scene.actors if each.instance not in flashing):
         counts = seen[one.instance]
-        gone = [not count and _area_px(one.corners(time_s), camera, size) >= least_px
+        whole_s = math.inf if one.breaks_s is None else one.breaks_s
+        gone = [not count and time_s < whole_s
+                and _area_px(one.corners(time_s), camera, size) >= least_px
                 for count, time_s, camera in zip(counts, times, cameras, strict=True)]  # fmt: skip
         if max(counts) >= _TOLD and sum(gone) > 1:
             yield f"the {one.name} is hidden for {sum(gone) / len(gone):.0%} of the clip"

@@ -31,6 +31,7 @@ from texvent_scenes.checks.acts import (
     is_laid,
     keeps_to_ground,
     lands,
+    meets_ground,
     moves,
     repeats,
     returns,
@@ -207,7 +208,10 @@ def _is_row(staged: StagedClip, claim: Claim) -> bool:
 
     In a queue those on feet are one behind the other.
     """
-    own = staged.own(claim)
+    own, objects = staged.own(claim), staged.description.objects
+    if len(own) == 1:  # of those that begin in turn each is an object
+        own = [one for one in staged.scene.actors
+               if objects[one.object_index].noun == objects[claim.subject or 0].noun]  # fmt: skip
     first, last = (np.array([one.middle(share * staged.duration_s)[:2] for one in own])
                    for share in (0.0, 1.0))  # fmt: skip
     places, way = 0.5 * (first + last), (last - first).mean(axis=0)
@@ -361,7 +365,7 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "act on": handles, "in_mouth": has_in_mouth,
     "activity": is_doing, "direction": swings, "rise": rises_from, "ground": keeps_to_ground,
     "mutual": _are_mutual, "bounce": bounces, "break": breaks, SEEN: lambda *_: True,
-    "camera out": comes_out,
+    "camera out": comes_out, "on_ground": meets_ground,
     "reverse": goes_back, "fall": falls, "water": _is_in_water, "descend": descends,
     "land": lands, "aside": goes_aside, "along": goes_along,
     "grip": handles_by_hand, "camera": is_camera_so, "stop": stops, "move": moves, "tip": tips,

@@ -204,7 +204,10 @@ def _build(draft: SceneDraft, prompt: str) -> Scene:
     for index, one in enumerate([*draft.things]):
         for motion in (each for each in one["motions"] if "end_m_s" in each):
             _reach_speed(motion, draft.nouns[one["noun"]])
-        if any([each.pop("in_turn", False) for each in one["motions"]]) and one["count"] > 1:
+        is_chain = one["noun"] in word_set("things", "chained")
+        is_chain &= [each["kind"] for each in one["motions"]] in (["fall"], ["topple"])
+        in_turn = [each.pop("in_turn", False) for each in one["motions"]]
+        if (is_chain or any(in_turn)) and one["count"] > 1:
             take_turns(draft, index)
         if any(each.get("direction") == OPPOSITE for each in one["motions"]):
             halve(draft, index)

@@ -15,7 +15,7 @@ from texvent_scenes.read.parsing.groups import Group, Phrase, heads_of, nouns_of
 from texvent_scenes.read.parsing.lexicon import Sense, lexicon_of, word_set, word_table
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
 from texvent_scenes.read.phrases import apply_phrase
-from texvent_scenes.read.prepositions import is_standpoint
+from texvent_scenes.read.prepositions import is_standpoint, looks_at_contact
 from texvent_scenes.read.things import name_group
 
 _STAYING = frozenset({"handheld", "roll", "truck"})
@@ -137,8 +137,10 @@ def apply_to_camera(draft: SceneDraft, clause: Clause, *, is_own: bool) -> None:
         if not isinstance(one, Phrase):
             draft.show(*([one] if one.text in ("by", "to") else []))
             set_scene(draft, one)
-        elif is_standpoint(draft, one, move or {}) or (
-            move is not None and _go_along(draft, clause, move, one)
+        elif (
+            is_standpoint(draft, one, move or {})
+            or looks_at_contact(draft, one)
+            or (move is not None and _go_along(draft, clause, move, one))
         ):
             continue
         elif targets:  # as "orbits a car in front of a house"
@@ -147,6 +149,10 @@ def apply_to_camera(draft: SceneDraft, clause: Clause, *, is_own: bool) -> None:
             targets += _see_past(draft, move, one)
     if move is not None:
         _make_move(draft, clause.verb or NO_TOKEN, move, targets)
+    for one in clause.after:
+        field, value = one.value("adverb") if isinstance(one, Token) else ("", None)
+        if field == "end_pace" and draft.quicken(value):
+            draft.show(one)
 
 
 def _make_move(draft: SceneDraft, verb: Token, move: dict[str, Any], targets: list[int]) -> None:

@@ -22,7 +22,7 @@ from texvent_scenes.read.parsing.groups import Group
 from texvent_scenes.read.parsing.lexicon import Sense, VerbSense, word_set, word_table
 from texvent_scenes.read.parsing.tokens import Token
 from texvent_scenes.read.parts import claim_lamps
-from texvent_scenes.read.prepositions import set_before
+from texvent_scenes.read.prepositions import comes_down, set_before
 
 _IN_WIND = frozenset({"sway", "fly", "float", "hover", "sail"})
 """Motions in which the wind shows."""
@@ -119,12 +119,16 @@ def _claim_adverb(
     draft: SceneDraft, token: Token, field: str, value: Any, subjects: Indices
 ) -> None:
     """Leave it to the staged scene whether things do it so, and let them do what it means."""
+    if field == "on_ground" and draft.beside(token, -1).has("noun"):
+        subjects = draft.last.nearest or subjects  # "hovers over a ball on the ground"
     if field == "times":
         _repeat(draft, value, subjects)
     meant, kinds = _MEANT.get(field, ("", ()))
     for motions in (draft.things[index]["motions"] for index in subjects):
         if motions and motions[-1]["kind"] in kinds:
             motions[-1]["kind"] = meant
+        if field == "on_ground" and [one["kind"] for one in motions] == ["break"]:
+            motions.insert(0, {"kind": "fall"})  # "a balloon bursts on the ground"
     if field == "in_air":
         field, value = "ground", False
     draft.claim(token, field, value, subjects)
@@ -151,6 +155,12 @@ def _say_at_once(
     if field == "in_turn" and is_still and any(draft.is_lamp(one) for one in subjects):
         is_so = all([switch_in_turn(draft, one) for one in subjects])
         draft.mark(token, "shown" if is_so else "lost")
+        return True
+    if field == "on_ground" and not subjects:
+        draft.mark(token, "shown" if comes_down(draft.beside(token, -1)) else "lost")
+        return True  # "snow on the ground"
+    if field == "end_pace" and not subjects and draft.moves:
+        draft.mark(token, "shown" if draft.quicken(value) else "lost")
         return True
     for one in subjects if field == "in_mouth" else ():
         draft.take_in_mouth(one)

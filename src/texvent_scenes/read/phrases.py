@@ -23,6 +23,7 @@ from texvent_scenes.read.prepositions import (
     go_to_place,
     is_of_particles,
     is_rained_on,
+    is_rained_under,
     is_standpoint,
     keep_distance,
     names_formation,
@@ -204,6 +205,7 @@ def _relate_all(
     able = () if kind == "route" else subjects
     placed = [relate_one(draft, kind, index, targets) for index in able]
     is_so = any(placed) or is_rained_on(draft, token, kind)
+    is_so |= not subjects and is_rained_under(draft, token, targets)
     draft.mark(token, "shown" if is_so else "lost")
     claim_relation(draft, token, kind, subjects, targets)
 

@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from texvent_scenes.description import SEEN
-from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS, TO_AND_FROM_SEATS
+from texvent_scenes.models.activities import (
+    HAND_NOUNS,
+    PERSON_NOUNS,
+    SINGLE_ACTS,
+    TO_AND_FROM_SEATS,
+)
+from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.places import PLACES, PlaceModel
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.draft.abilities import MEANS, Indices
@@ -29,6 +36,8 @@ _LANDING = frozenset({"fall", "jump", "sink", "bounce"})
 _CLAIMED = PLACING | {"past", "around", "towards", "away from", "from", "off"}
 """Relations that the staged scene may have though nothing was placed by them."""
 _ARRIVALS = {"into": "in", "onto": "on"}
+_HITS = frozenset({"hit", "kick"})
+"""Acts upon something that it meets at one instant."""
 _SENT_OFF = frozenset({"bounce", "jump", "throw"})
 """Motions against something that is reached: no pendulum swings so before a wall."""
 _OWN_BALL = frozenset({"bounce", "dribble", "juggle"})
@@ -292,10 +301,25 @@ def dress(draft: SceneDraft, phrase: Phrase, subjects: Indices) -> bool:
 
 def is_rained_on(draft: SceneDraft, token: Token, kind: str) -> bool:
     """Whether weather or leaves come down on something, as on all: "snow falls on a car"."""
-    before = draft.beside(token, -1)
-    is_weather = {one.value[1] for one in before.all("scene")} & {"weather", "has_snow"}
-    is_all_over = {one.value for one in before.all("effect")} & word_set("things", "all_over")
-    return bool(is_weather or is_all_over) and kind in _RAINED_ON
+    return comes_down(draft.beside(token, -1)) and kind in _RAINED_ON
+
+
+def is_rained_under(draft: SceneDraft, token: Token, targets: Indices) -> bool:
+    """Whether weather comes down by what is no roof: "rain on a street under a lamp post"."""
+    at = token.at - 1
+    while at > 0 and draft.tokens[at].has("place", "relation", "articles"):
+        at -= 1
+    is_open = bool(targets) and draft.names(targets) <= word_set("things", "rained_under")
+    is_so = "under" in token.relations and is_open and comes_down(draft.tokens[at])
+    draft.claim(token, SEEN, "", [None] if is_so else [], targets)
+    return is_so
+
+
+def comes_down(token: Token) -> bool:
+    """Whether a word names weather or what comes down everywhere."""
+    is_weather = {one.value[1] for one in token.all("scene")} & {"weather", "has_snow"}
+    is_all_over = {one.value for one in token.all("effect")} & word_set("things", "all_over")
+    return bool(is_weather or is_all_over)
 
 
 def is_of_particles(draft: SceneDraft, phrase: Phrase) -> bool:
@@ -327,6 +351,29 @@ def is_standpoint(draft: SceneDraft, phrase: Phrase, move: Mapping[str, Any] | N
     if any(draft.nouns[one].speed_m_s for one in nouns) and any(map(is_course, after)):
         draft.mark(preposition, "shown")
         draft.mark(heads[-1], "camera")  # "view from a drone flying over a field"
+    return True
+
+
+def looks_at_contact(draft: SceneDraft, phrase: Phrase) -> bool:
+    """Whether a camera looks at who hits something as it does: "zooms in on the impact"."""
+    words = [one for one in draft.tokens[phrase.preposition.at + 1 :] if not one.has("articles")]
+    words = [*itertools.takewhile(lambda one: not (one.is_sign or one.has("verb")), words)]
+    said = [one for one in words if one.text in word_set("things", "contacts")]
+    who = [
+        n for n, one in enumerate(draft.things)
+        if {each["kind"] for each in one["motions"]} & SINGLE_ACTS or draft.acts([n]) & _HITS
+    ]  # fmt: skip
+    if phrase.preposition.text not in ("on", "at") or not (said and who):
+        return False
+    draft.parts["camera"].setdefault("target", who[0])
+    draft.show(phrase.preposition, *said)
+    met = [each for one in draft.things[who[0]]["relations"] for each in one["to"]]
+    draft.claim(said[-1], "part", "", who[:1])
+    draft.claim(said[-1], SEEN, "", who[:1], met)
+    acts = [each["kind"] for each in draft.things[who[0]]["motions"]]
+    props = {noun for act in acts for prop in list_props(act) for noun in prop.nouns}
+    known = props | {one["noun"] for one in draft.things}
+    draft.show(*(one for one in words if one.nouns & known))  # "on racket contact"
     return True
 
 

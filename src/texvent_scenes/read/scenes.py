@@ -51,6 +51,7 @@ def _apply(draft: SceneDraft, clause: Clause) -> None:
     """Add what a clause says."""
     is_told = any(isinstance(one, Phrase) or not one.has("scene") for one in clause.after)
     is_bare = clause.about == "then" and clause.verb is None and not draft.last.was_camera
+    is_bare &= not any(one.has("pose") for one in heads_of(clause.subjects))  # "then a thumbs up"
     if is_bare and (is_told or clause.subjects):
         clause = replace(clause, verb=draft.last.verb)
     draft.last.verb = clause.verb or draft.last.verb

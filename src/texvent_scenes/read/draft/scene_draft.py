@@ -17,6 +17,11 @@ from texvent_scenes.read.parsing.tokens import Token, token_at
 from texvent_scenes.spec.data import PLACING
 from texvent_scenes.spec.scene import MoveDirection
 
+_QUICKENED = frozenset({"pan", "tilt", "roll", "orbit", "truck", "dolly", "pedestal",
+                        "zoom", "travel"})  # fmt: skip
+"""Moves of a camera that may get faster or slower."""
+_STEPS = 3
+"""Stretches of the clip in which they do, each at its own pace."""
 _SAID_TWICE = ("travel", "handheld", "static")
 """Moves of which a verb says what a shot is: "handheld camera shaking"."""
 _NEAR = 3
@@ -176,6 +181,19 @@ class SceneDraft(Abilities):
         for one in moves[-1:]:
             one.update(turn_by(one, name, value))
         return bool(moves)
+
+    def quicken(self, end_pace: float) -> bool:
+        """Let the camera's moves go over to a pace by steps; False: they have steps already."""
+        moves = [*self.moves]
+        is_open = bool(moves) and all(
+            one["kind"] in _QUICKENED and not one.keys() & {"phase", "start_s", "speed_m_s"}
+            for one in moves
+        )
+        for phase in range(_STEPS if is_open else 0):
+            by = round(1.0 + (end_pace - 1.0) * phase / (_STEPS - 1), 3)
+            said = [{**one, "pace": round(one.get("pace", 1.0) * by, 3)} for one in moves]
+            self.moves += [{**one, "phase": phase} for one in said] if phase else []
+        return is_open
 
     def take_in_mouth(self, index: int) -> None:
         """Let an animal hold what it is with: "a dog with a stick in its mouth"."""

@@ -31,6 +31,7 @@ from texvent_scenes.staging.actors import size_of
 from texvent_scenes.staging.placement.along_surface import go_down
 from texvent_scenes.staging.placement.object_groups import ObjectGroup
 from texvent_scenes.staging.placement.rims import fits, go_through
+from texvent_scenes.staging.placement.rows import line_up
 from texvent_scenes.staging.tracks.flight_keys import DULL, QUARTER
 from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2, Key, flight_s
 from texvent_scenes.staging.tracks.phases import GOING, YAWS, activity_of, speeds_of, usual_speed
@@ -213,6 +214,9 @@ def _leave_top(group: ObjectGroup, target: ObjectGroup) -> Float64Array:
     """From on top over the nearer edge to the ground: leaping, rising, or falling on its side."""
     own, plan, body = group.models[0], group.plan, target.models[0]
     support, duration_s = find_support(body), group.plan.duration_s
+    if len(group.models) > 1 and plan.motion.kind != "fall":
+        line_up(group, target, support, [group.index] * len(group.models))
+        group.fit()
     if plan.motion.kind == "rise":
         return target.to_world(*support.middle, support.height + group.origin_m)
     is_falling = plan.motion.kind == "fall"
