@@ -23,6 +23,7 @@ from texvent_scenes.checks.water import wet_share
 from texvent_scenes.colours import name_colour
 from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.nouns import VARIANTS
+from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.raycast.ground_truth import cast_centres
 from texvent_scenes.raycast.render import world_and_shapes
 from texvent_scenes.rendered_scene import Ground, Texture
@@ -235,6 +236,8 @@ def _tell_place_of(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
     place = staged.scene.place
     if place.ground in (Ground.NONE, Ground.UNDERWATER):
         return ""
+    if place.is_room and one.noun.name in nouns_with("hangs from a ceiling"):
+        return "under the ceiling"
     is_wet = place.has_surface and wet_share(staged.scene, body.middle[at][None, :2]) > 0.0
     ground = "water" if is_wet else "floor" if place.is_room else "ground"
     if low[2] > _GROUND_M:

@@ -98,6 +98,9 @@ def test_heights_and_grounds_are_told():
     room = {"name": "kitchen", "is_empty": True}
     _, (line,), _ = lines({"noun": "dog", "motions": [{"kind": "sit"}]}, place=room)
     assert "on the floor" in line
+    lamp = {"noun": "ceiling lamp", "motions": [{"kind": "stand"}]}
+    _, (line,), _ = lines(lamp, place=room)
+    assert "under the ceiling" in line
     _, (line,), _ = lines({"noun": "boat", "motions": [{"kind": "float"}]}, place={"name": "sea"})
     assert re.search("(on|in) the water", line)
 
