@@ -185,6 +185,8 @@ MEDIUM_RECORD = np.dtype(
 
 CORRIDOR_HEIGHT_M = 2.7
 """Height of a corridor, metres."""
+CEILING = 0.6
+"""Height of the ceiling of a room, as a share of half its width."""
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,13 @@ from texvent_scenes.models.nouns import AFLOAT
 from texvent_scenes.models.places import PlaceModel
 from texvent_scenes.models.shapes import bounds, moved
 from texvent_scenes.models.tables import nouns_with
-from texvent_scenes.rendered_scene import Environment, Float64Array, Ground
+from texvent_scenes.rendered_scene import (
+    CEILING,
+    CORRIDOR_HEIGHT_M,
+    Environment,
+    Float64Array,
+    Ground,
+)
 from texvent_scenes.spec.data import ACTED, WAYS
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.placement.zones import zone_of
@@ -58,8 +64,18 @@ _LONG, _END = 1.5, 0.35
 its middle to these, in lengths."""
 _CROSSING = 0.7
 """Least share of the way of one who crosses a road that leads across it."""
+_CORD_M = 0.5
+"""Most from the top of a lamp that hangs to the ceiling above it, m."""
 _SHALLOW_M = 0.4
 """From an edge of a road or of water to what is beyond it."""
+
+
+def _ceiling_of(place: PlaceModel, surroundings: Environment) -> float:
+    """Height of the ceiling of a place, m; inf = it has none."""
+    if not place.is_room:
+        return math.inf
+    is_corridor = surroundings.corridor_half_width is not None
+    return CORRIDOR_HEIGHT_M if is_corridor else CEILING * surroundings.room_half_size
 
 
 def find_misplaced(
@@ -92,7 +108,8 @@ def find_misplaced(
         lost += [*_list_wrong_element(number, one, place, bodies)]
         if not (lost or is_free) and bodies.needs_support(number):
             lost += _list_strays(one, place, line, half_m, times) if bodies.is_alone(number) else []
-        if one.noun.name in nouns_with("hangs from a ceiling") and not place.is_room:
+        hangs = one.noun.name in nouns_with("hangs from a ceiling")
+        if hangs and one.corners(0.0)[:, 2].max() < _ceiling_of(place, surroundings) - _CORD_M:
             lost.append(Violation("support", "", "hanging from nothing"))
         for kind, value, text in lost:
             yield Violation(kind, value, f"the {one.name} {text}")

@@ -17,6 +17,7 @@ from texvent.lens import Lens, lens_limits
 from texvent_scenes.mesh import MOST_LEVELS, Mesh, SurfaceImage
 from texvent_scenes.raycast.surfaces.catalogue import SURFACE_COUNT, gloss_rows, surface_rows
 from texvent_scenes.rendered_scene import (
+    CEILING,
     CORRIDOR_HEIGHT_M,
     Environment,
     Ground,
@@ -355,7 +356,7 @@ def describe_surroundings(instant: NDArray[Any], environment: Environment, shado
     instant["shadows"] = int(environment.shadows and shadows)
     instant["fog"] = 1.0 / float(environment.fog_distance)
     instant["room"] = instant["room_x"] = environment.room_half_size
-    instant["ceiling"] = 0.6 * environment.room_half_size
+    instant["ceiling"] = CEILING * environment.room_half_size
     instant["is_corridor"] = int(environment.corridor_half_width is not None)
     instant["has_panels"] = int(environment.has_ceiling_panels)
     if environment.corridor_half_width is not None:

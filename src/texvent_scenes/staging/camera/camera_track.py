@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.camera import PosedCamera
-from texvent_scenes.rendered_scene import CORRIDOR_HEIGHT_M, Float64Array
+from texvent_scenes.rendered_scene import CEILING, CORRIDOR_HEIGHT_M, Float64Array
 from texvent_scenes.spec.scene import CameraMove
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.camera.framing import VERTICAL, Framing, direction, look_at
@@ -284,7 +284,7 @@ class CameraTrack:
         if math.isfinite(self.room_m):
             wall = self.room_m - 0.4
             position[:2] = np.clip(position[:2], -wall, wall)
-            ceiling_m = 0.6 * self.room_m if self.corridor_m is None else CORRIDOR_HEIGHT_M
+            ceiling_m = CEILING * self.room_m if self.corridor_m is None else CORRIDOR_HEIGHT_M
             position[2] = min(position[2], ceiling_m - 0.3)
         return position
 

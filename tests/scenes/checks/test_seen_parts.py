@@ -1,0 +1,42 @@
+"""Lamps, suns, gates and sparks that a prompt names, and that the image must have."""
+
+import numpy as np
+import pytest
+from tests.scenes.test_short_prompts import report, staged
+
+
+@pytest.mark.parametrize(
+    ("text", "word", "is_seen"),
+    [("a bus driving to the right at night with its headlights on", "with its headlights on", True),
+     ("a truck coming towards the camera at night with headlights", "with headlights", True),
+     ("a car driving away at night with headlights on", "with headlights on", False),
+     ("low sun over a field", "low sun", False),
+     ("the sun hangs low above the sea", "sun hangs low", False),
+     ("quadcopter flying fast through racing gates", "through", True),
+     ("a dog running through three hoops", "through", True),
+     ("a car driving through two gates", "through", True),
+     ("a camera driving out of a tunnel into sunlight", "out of", True)],
+)  # fmt: skip
+def test_what_is_named_is_shown_only_where_the_image_has_it(text, word, is_seen):
+    assert (word in report(text).shown) is is_seen
+
+
+@pytest.mark.parametrize(
+    "text", ["sparks flying off an angle grinder", "sparks fly from a table saw",
+             "sparks fly off an angle grinder"],
+)  # fmt: skip
+def test_sparks_leave_the_part_of_a_tool_that_goes_round(text):
+    scene = staged(text)[0]
+    (emitter, *_), (tool, *_) = scene.particles.effects, scene.actors
+    start = emitter.source.at(np.array([1.0]))[0]
+    first, later = (tool.place(at) for at in (1.0, 1.02))
+    moved = [one.to_body[:, 3] for one, other in zip(first.parts, later.parts, strict=True)
+             if not np.allclose(one.to_body, other.to_body)]  # fmt: skip
+    places = np.array(moved) @ first.to_world[:, :3].T + first.to_world[:, 3]
+    assert np.linalg.norm(places - start, axis=1).min() < 0.6 * tool.size_m
+
+
+@pytest.mark.parametrize("place", ["kitchen", "garage", "library"])
+def test_a_lamp_that_ends_below_the_ceiling_is_told(place):
+    told = report(f"a person walking in a {place} below a ceiling lamp").not_shown
+    assert "the ceiling lamp hanging from nothing" in told
