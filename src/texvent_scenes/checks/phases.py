@@ -127,7 +127,7 @@ def runs(staged: StagedClip, claim: Claim) -> bool:
     targets = {objects[n].noun for one in own for n in one.targets}
     is_at_work = any(NOUNS[one].is_working for one in targets if one in NOUNS)
     is_climbing = any(one.kind in ("up", "down") for one in own)
-    least = _RUNNING * min(float(claim.value), 1.0)
+    least = _RUNNING * min(float(claim.value or 1.0), 1.0)
     return is_at_work or is_climbing or all(
         one.track.anchor is not None
         or _fastest(one, staged.times) >= least * usual_speed(one.noun, "run")

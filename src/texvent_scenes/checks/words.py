@@ -212,6 +212,8 @@ def _is_row(staged: StagedClip, claim: Claim) -> bool:
     if len(own) == 1:  # of those that begin in turn each is an object
         own = [one for one in staged.scene.actors
                if objects[one.object_index].noun == objects[claim.subject or 0].noun]  # fmt: skip
+    if not own:
+        return False
     first, last = (np.array([one.middle(share * staged.duration_s)[:2] for one in own])
                    for share in (0.0, 1.0))  # fmt: skip
     places, way = 0.5 * (first + last), (last - first).mean(axis=0)
