@@ -20,7 +20,7 @@ from texvent_scenes.scene_input import describe_scene, list_nouns, understand
 from texvent_scenes.spec.scene import Camera, Lamp, Light, Motion, Place, Scene, SceneObject
 from texvent_scenes.staging.compose import compose_scene
 from texvent_scenes.staging.surroundings.lamps import part_lamp
-from texvent_scenes.staging.surroundings.lighting import hidden_lamp
+from texvent_scenes.staging.surroundings.lighting import choose_lighting, hidden_lamp
 
 CAR = thing("car", ("drive", "left"))
 
@@ -257,3 +257,9 @@ def test_every_place_is_darker_at_night_than_by_day(place):
     lights = DARKER if not PLACES[place].light else ("night", "moonlight")
     shares = {light: luminance(place, light) / day for light in lights}
     assert all(share < DARKER[light] for light, share in shares.items()), shares
+
+
+@pytest.mark.parametrize("name", [name for name, one in PLACES.items() if one.light == "space"])
+@pytest.mark.parametrize("kind", ["night", "moonlight", "lamp", "dusk", "overcast"])
+def test_in_space_the_sun_shines_at_any_time(name, kind):
+    assert choose_lighting(PLACES[name], Light(kind)) == choose_lighting(PLACES[name], Light(None))
