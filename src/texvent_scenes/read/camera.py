@@ -149,8 +149,8 @@ def apply_to_camera(draft: SceneDraft, clause: Clause, *, is_own: bool) -> None:
             targets += _see_past(draft, move, one)
     if move is not None:
         _make_move(draft, clause.verb or NO_TOKEN, move, targets)
-    for one in clause.after:
-        field, value = one.value("adverb") if isinstance(one, Token) else ("", None)
+    for one in (each for each in clause.after if isinstance(each, Token)):
+        field, value = one.value("adverb")
         if field == "end_pace" and draft.quicken(value):
             draft.show(one)
 
