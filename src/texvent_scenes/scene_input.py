@@ -33,8 +33,8 @@ def read(prompt: str, *, assets: str | Path | None = None) -> Reading:
     """The scene that a sentence describes.
 
     What the sentence leaves open stays open: place, motions and light are decided when the scene
-    is generated. Nothing is drawn: what is out of view is not found here, and words of which only
-    the drawn scene tells whether it shows them ("four times") are `open_words`.
+    is generated. Nothing is drawn: what is out of view is not found here, and words that only the
+    drawn scene confirms or denies ("four times") are `open_words`.
 
     Args:
         prompt: an English sentence, such as "a red car drives left past two trees at dusk".

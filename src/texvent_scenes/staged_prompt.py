@@ -74,12 +74,7 @@ def stage(
     claimed = (one for one in sorted(failed) if one not in said.shown)
     lost = (one for one in (*said.shown, *claimed) if one not in shown
             and not re.search(rf"\b{re.escape(one)}\b", told))  # fmt: skip
-    unknown = {*said.not_understood}
-    cut = {one.noun for n, one in enumerate(description.objects) if n not in unseen.gone}
-    lost_words = {one for one in said.shown if one not in shown and not _names(one, cut)}
-    missing = unknown | lost_words | failed
-    uncertain = {word for one in description.dependences for word in one.words
-                 if not (missing if one.is_staged else unknown).isdisjoint(one.on)}  # fmt: skip
+    uncertain = _find_uncertain(description, said, shown, unseen, failed)
     report = replace(
         said,
         shown=tuple(one for one in shown if one not in uncertain),
@@ -92,6 +87,19 @@ def stage(
         caption=drawn,
     )  # fmt: skip
     return scene, report, files
+
+
+def _find_uncertain(
+    description: SceneDescription, said: PromptReport, shown: Collection[str], unseen: Unseen,
+    failed: Collection[str],
+) -> set[str]:  # fmt: skip
+    """Words that depend on others that are not understood, or that the clip does not show."""
+    unknown = {*said.not_understood}
+    cut = {one.noun for n, one in enumerate(description.objects) if n not in unseen.gone}
+    lost = {one for one in said.shown if one not in shown and not _names(one, cut)}
+    missing = unknown | lost | {*failed}
+    return {word for one in description.dependences for word in one.words
+            if not (missing if one.is_staged else unknown).isdisjoint(one.on)}  # fmt: skip
 
 
 def _list_others(words: Sequence[str], description: SceneDescription) -> Iterator[str]:

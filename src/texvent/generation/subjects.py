@@ -51,7 +51,7 @@ class ReadPrompt(Protocol):
 
     @property
     def open_words(self) -> tuple[str, ...]:
-        """Words of which only the drawn scene tells whether it shows them."""
+        """Words that only the drawn scene confirms or denies."""
         ...
 
 

@@ -40,7 +40,7 @@ _STAYS, _STIRS, _TURNS, _HALF = 0.05, 0.01, math.radians(4.0), 0.6
 """Way of a body that stays, in its sizes and m; way of a part that moves, in those; turn that is
 told; share of a body, of which less is seen than of one that is hidden by half."""
 _SUPPORTED_M, _GROUND_M = 0.06, 0.12
-"""Gap to what bears a body, and height above the ground of what stands on it, m."""
+"""Gap to the support of a body, and height up to which it is on the ground, m."""
 _CAMERA_M, _ZOOM, _STEEP = 0.03, 1.04, 0.85
 """Way and ratio of focal lengths of a camera that are told; upward part of the sight of one that
 looks straight down or up."""

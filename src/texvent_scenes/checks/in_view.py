@@ -146,11 +146,8 @@ def find_unseen(
                            is_close=index == close)  # fmt: skip
             if any(_is_entered(*each, clip) for each in zip(own, seen_own, strict=True)):
                 found = _Judged(is_unseen=False)
-            most = max(view.pixels for view in seen_own)
-            if found.words is None and most < _SMALL_AREA * size.width * size.height:
-                notes.append(f"the {label} is small in the picture: about {most} pixels")
-            if found.words is None and index not in covered:
-                notes += _list_covered(own, label, seen_own)
+            if found.words is None:
+                notes += _list_slight(label, seen_own, size, is_covered=index in covered)
             lines = small if found.is_small else outside
             lines += [f"{label}{found.words}"] if found.words is not None else []
             unseen |= {index} if found.is_unseen else set()
@@ -289,11 +286,19 @@ def _judge(
     return _Judged(is_unseen=False)
 
 
-def _list_covered(own: Sequence[Actor], label: str, views: Sequence[View]) -> Iterator[str]:
-    """Note on the bodies of an object of which others hide more than half, and on how much."""
+def _list_slight(
+    label: str, views: Sequence[View], size: SensorSize, *, is_covered: bool
+) -> Iterator[str]:
+    """Notes on an object that is small, and on bodies of which others hide more than half.
+
+    `is_covered`: whether the scene says that something hides it.
+    """
+    most = max(view.pixels for view in views)
+    if most < _SMALL_AREA * size.width * size.height:
+        yield f"the {label} is small in the picture: about {most} pixels"
     shares = [view.share for view in views if view.pixels and view.share < MOST_COVERED]
-    who = label if len(own) == 1 else f"{label} ({len(shares)} of {len(own)})"
-    if shares:
+    who = label if len(views) == 1 else f"{label} ({len(shares)} of {len(views)})"
+    if shares and not is_covered:
         yield f"the {who} is partly hidden: at most {min(shares):.0%} of its pixels are seen"
 
 

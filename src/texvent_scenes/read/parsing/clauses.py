@@ -185,7 +185,7 @@ class _Parser(GroupReader):
         return Clause(about="meanwhile") if is_next else None
 
     def _begin_kept(self) -> Clause | None:
-        """Clause of a camera that somebody stays in view of: "keeps her in frame"."""
+        """Clause of a camera that keeps its subject in view: "keeps her in frame"."""
         aim = int(self._token().text == "to" and self._token(1).text == "keep")
         token = self._token(aim)
         is_done = not aim and bool(token.verbs("ed") or token.text == "kept")
