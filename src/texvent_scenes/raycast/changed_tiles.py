@@ -175,17 +175,19 @@ def _sky_tiles(instant: Any) -> Mask:
 def shadow_windows(
     before: Drawn, after: Drawn, chosen: NDArray[np.int64]
 ) -> list[Float64Array] | None:
-    """Screen bounds of the sun's shadows of some shapes, [k, 4] each, pixels.
+    """Screen bounds of the sun's shadows of some shapes, pixels; None: anywhere.
 
-    None: anywhere.
+    Two arrays for each instant, [k, 4] each: on the ground, of shapes that cast a shadow at either
+    instant; and on other shapes.
     """
     if not after.world.instant[0]["shadows"]:
         return []
     if not np.array_equal(_big_casters(before.world), _big_casters(after.world)):
         return None
+    dark = [world.shapes["emission"][chosen] <= 0.0 for world, _ in (before, after)]
+    casters = chosen[dark[0] | dark[1]]
     windows = []
     for world, primitives in (before, after):
-        casters = chosen[world.shapes["emission"][chosen] <= 0.0]
         on_ground = _windows_on_ground(world.instant[0], world.shapes, casters)
         if on_ground is None:
             return None
