@@ -38,6 +38,26 @@ def test_what_changes_lies_in_blocks_that_something_passes(text):
     assert (swept == 0.0).mean() > 0.2
 
 
+@pytest.mark.parametrize("text", (
+    "a drone hovers above a field", "a police car stands on a road with flashing blue lights",
+    "a traffic light changes from red to green", "an ambulance with blinking lights drives left",
+))  # fmt: skip
+def test_what_begins_or_ceases_to_glow_leaves_no_block_out(text):
+    """What glows casts no shadow of the sun, so its shadow comes and goes."""
+    _, scene = stage_text(text)
+    times = [0.037 * number for number in range(40)]
+    drawn = [world_and_shapes(scene, time_s, SIZE) for time_s in times]
+    glows = np.array([one.world.shapes["emission"] > 0.0 for one in drawn])
+    turns = np.flatnonzero((glows[1:] != glows[:-1]).any(axis=1))
+    assert len(turns)
+    for n in turns[:3]:
+        swept = swept_speeds(drawn[n : n + 2], SHAPE, BLOCK, 1.0)
+        before, after = (render(scene, times[k], SIZE) for k in (n, n + 1))
+        change = np.abs(after - before).max(axis=2)
+        blocks = change.reshape(SHAPE[0], BLOCK, SHAPE[1], BLOCK).max(axis=(1, 3))
+        assert swept is None or blocks[swept[0] == 0.0].max(initial=0.0) < 0.5
+
+
 @pytest.mark.parametrize("text", MOVING[:4])
 def test_a_change_that_nothing_passes_is_found(text):
     """The property can fail: without the largest of the windows something changes outside."""
