@@ -17,6 +17,7 @@ from zlib import crc32
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, settings
+from tests import silence
 
 if shutil.which("nvidia-smi") is None:
     # Triton looks when it is first imported, and other packages may import it first.
@@ -115,6 +116,10 @@ def choose_rows(items: list[pytest.Item]) -> set[str]:
         share = 4 if is_of_scenes else 2 if len(own) >= _LONG_TABLE else 1
         chosen |= {*own[: -(-len(own) // share)]}
     return chosen
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    silence.watch(config)
 
 
 def pytest_collectstart() -> None:
