@@ -13,7 +13,7 @@ from texvent_scenes.read.draft.abilities import Indices
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.parsing.lexicon import word_set
 from texvent_scenes.read.parsing.tokens import Token
-from texvent_scenes.spec.data import ACTED, SENT, SPACED, WAYS
+from texvent_scenes.spec.data import ACTED, PLACING, SENT, SPACED, WAYS
 
 _DROPPED = frozenset({"move", "fall", "throw", "roll", "bounce", "sink", "fly", "jump"})
 """Motions by which small things come into what is open above."""
@@ -96,6 +96,8 @@ def hand_over(
 
     The thing is there at first, or at the end; the staged scene tells.
     """
+    if _leave_there(draft, kind, subjects, targets):
+        return "shown"
     machines = trait_values("gripper").keys()
     acts = [one for n in range(len(draft.things)) for one in draft.things[n]["relations"]
             if draft.things[n]["noun"] in machines and one["kind"] in ACTED
@@ -111,6 +113,14 @@ def hand_over(
     left = ("relation", "into") if place == "in" else ("arrive", place)
     draft.claim(token, *(("off", "") if is_taken else left), things, targets)
     return "shown" if is_so else "lost"
+
+
+def _leave_there(draft: SceneDraft, kind: str, subjects: Indices, targets: Indices) -> bool:
+    """Whether a place is of what people go away from: "leaves a bag on a bench"."""
+    left = draft.targets(subjects, ("from", "out of"))
+    is_so = kind in PLACING and bool(left) and all(map(draft.is_put, left))
+    is_so &= draft.names(subjects) <= PERSON_NOUNS and {*targets}.isdisjoint(left)
+    return is_so and all([relate_one(draft, kind, one, targets) for one in left])
 
 
 def _put_by_hand(
