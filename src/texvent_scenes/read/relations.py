@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 from texvent_scenes.models.activities import ACTIVITIES, AIMED, ON_TOP, PERSON_NOUNS
@@ -120,7 +121,16 @@ def _leave_there(draft: SceneDraft, kind: str, subjects: Indices, targets: Indic
     left = draft.targets(subjects, ("from", "out of"))
     is_so = kind in PLACING and bool(left) and all(map(draft.is_put, left))
     is_so &= draft.names(subjects) <= PERSON_NOUNS and {*targets}.isdisjoint(left)
-    return is_so and all([relate_one(draft, kind, one, targets) for one in left])
+    is_so = is_so and all([relate_one(draft, kind, one, targets) for one in left])
+    if is_so and kind in ("on", "in"):  # they go from what bears it
+        for row in (one for n in subjects for one in draft.things[n]["relations"]):
+            row["to"] = tuple(targets) if {*row["to"]} <= {*left} else row["to"]
+        draft.claims = {
+            at: [replace(one, targets=tuple(targets)) if {*one.targets} == {*left} else one
+                 for one in said]
+            for at, said in draft.claims.items()
+        }  # fmt: skip
+    return is_so
 
 
 def _put_by_hand(
