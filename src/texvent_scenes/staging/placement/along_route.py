@@ -19,7 +19,7 @@ from texvent_scenes.staging.tracks.track import centred
 _SEEN = 1.8
 """Distance ahead, as a multiple of that aside, from which on a thing is in the picture."""
 _GAP_M = 1.5
-_OUT_SHARE, _BEHIND_M = 0.75, 3.0
+_OUT_SHARE, _BEHIND_M = 0.9, 3.0
 """Share of the route after which the camera comes out of a passage; how far that goes on behind
 it at first, m."""
 _OPEN, _BY_THE_WALL_M = 0.17, 1.3
