@@ -98,6 +98,10 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     return _park(_move(description, dict.fromkeys(everything, STANDING)), nouns)
 
 
+_AIMED = frozenset({"to", "towards", "at", "into", "through"})
+"""Relations to what is farther along a corridor."""
+
+
 def _ground(description: SceneDescription) -> SceneDescription:
     """The place over which things are in the sky: "a plane in the sky above a city"."""
     said = description.place
@@ -115,10 +119,14 @@ def _snow_over(description: SceneDescription) -> SceneDescription:
 
 
 def _lead_along(description: SceneDescription) -> SceneDescription:
-    """Those who go somewhere in a corridor come along it; seen from behind, they go."""
-    way: Direction = "away" if description.camera.view == "back" else "towards"
+    """Those who go somewhere in a corridor come along it; seen from behind, or to a thing, they go.
+    """
+    aimed = {one.subject for one in description.relations if one.kind in _AIMED}
+    ways: tuple[Direction, Direction] = ("towards", "away")
+    is_back = description.camera.view == "back"
     new = {
-        n: replace(one, motions=(replace(one.motions[0], direction=way), *one.motions[1:]))
+        n: replace(one, motions=(replace(one.motions[0], direction=ways[is_back or n in aimed]),
+                                 *one.motions[1:]))
         for n, one in enumerate(description.objects)
         if one.motions and one.motions[0].direction in (None, "down", "forward")
         and one.motions[0].kind in _ALONG and one.heading_deg is None

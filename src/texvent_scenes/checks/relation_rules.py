@@ -17,7 +17,7 @@ from texvent_scenes.rendered_scene import Float64Array
 _Flags = NDArray[np.bool_]
 _Rule = Callable[[BodyBoxes, BodyBoxes], _Flags]
 """Whether a body is so to another one at each instant, [t]; [1] of relations of a whole way."""
-_LEAST_DISPLACEMENT, _DIRECT, _AT_START = 0.1, 0.5, 0.15
+_LEAST_DISPLACEMENT, _DIRECT, _AT_START = 0.1, 0.5, 0.25
 """Displacement, in sizes of a body, that is motion; least share of the way by which what goes
 "towards" something comes nearer; gap in sizes at which what goes "from" something begins."""
 _AROUND = np.array([(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)])

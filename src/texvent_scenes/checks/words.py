@@ -187,9 +187,15 @@ def _arrives(staged: StagedClip, claim: Claim) -> bool:
 
 
 def _leaves_gap(staged: StagedClip, claim: Claim) -> bool:
-    """Whether it is between two that are near at first, and no more at the end: "out between"."""
+    """Whether it is between two that are near at first, and no more at the end: "out between".
+
+    It is out as well where it has gone farther than they are wide.
+    """
     first, last = (staged.relates(claim, "between", when) for when in (slice(1), slice(-1, None)))
     others = [one for n in claim.targets for one in staged.boxes[n]]
+    wide = min((float(one.size[0, :2].min()) for one in others), default=0.0)
+    last &= not all(np.linalg.norm(one.middle[-1, :2] - one.middle[0, :2]) > wide
+                    for one in staged.own_boxes(claim))  # fmt: skip
     near = [sum(bool(RULES["at"](one, other)[0]) for other in others)
             for one in staged.own_boxes(claim)]  # fmt: skip
     return first and not last and min(near, default=0) >= 2

@@ -53,6 +53,8 @@ def perform(
     act = _stand_on(draft, act, verb, objects)
     act = _go_until(draft, act, subjects)
     if act.aims:
+        if act.is_near:
+            draft.mark(verb, act.relation or "")  # "dunks": it is thrown from afar
         return _send(draft, act, verb, subjects, objects)
     if act.brings not in ("", EGO) and not objects:
         objects = [draft.add(act.brings)]

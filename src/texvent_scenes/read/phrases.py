@@ -109,6 +109,8 @@ def _choose_placed(
         like = (one for one in subjects if draft.walks(one) == draft.walks(told[0]))
         return [*dict.fromkeys((*like, *told))]
     is_passed = before in word_set("things", "passed") | {"into"}
+    goes_off = draft.names(subjects) <= PERSON_NOUNS and any(map(draft.goes, subjects))
+    is_passed |= before == "from" and goes_off  # "walks away from a bag on a chair"
     return told if kind in PLACING and is_passed else subjects
 
 

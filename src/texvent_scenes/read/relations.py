@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 from texvent_scenes.models.activities import ACTIVITIES, AIMED, ON_TOP, PERSON_NOUNS
@@ -13,7 +14,7 @@ from texvent_scenes.read.draft.abilities import Indices
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.parsing.lexicon import word_set
 from texvent_scenes.read.parsing.tokens import Token
-from texvent_scenes.spec.data import ACTED, SENT, SPACED, WAYS
+from texvent_scenes.spec.data import ACTED, PLACING, SENT, SPACED, WAYS
 
 _DROPPED = frozenset({"move", "fall", "throw", "roll", "bounce", "sink", "fly", "jump"})
 """Motions by which small things come into what is open above."""
@@ -96,6 +97,8 @@ def hand_over(
 
     The thing is there at first, or at the end; the staged scene tells.
     """
+    if _leave_there(draft, kind, subjects, targets):
+        return "shown"
     machines = trait_values("gripper").keys()
     acts = [one for n in range(len(draft.things)) for one in draft.things[n]["relations"]
             if draft.things[n]["noun"] in machines and one["kind"] in ACTED
@@ -111,6 +114,23 @@ def hand_over(
     left = ("relation", "into") if place == "in" else ("arrive", place)
     draft.claim(token, *(("off", "") if is_taken else left), things, targets)
     return "shown" if is_so else "lost"
+
+
+def _leave_there(draft: SceneDraft, kind: str, subjects: Indices, targets: Indices) -> bool:
+    """Whether a place is of what people go away from: "leaves a bag on a bench"."""
+    left = draft.targets(subjects, ("from", "out of"))
+    is_so = kind in PLACING and bool(left) and all(map(draft.is_put, left))
+    is_so &= draft.names(subjects) <= PERSON_NOUNS and {*targets}.isdisjoint(left)
+    is_so = is_so and all([relate_one(draft, kind, one, targets) for one in left])
+    if is_so and kind in ("on", "in"):  # they go from what bears it
+        for row in (one for n in subjects for one in draft.things[n]["relations"]):
+            row["to"] = tuple(targets) if {*row["to"]} <= {*left} else row["to"]
+        draft.claims = {
+            at: [replace(one, targets=tuple(targets)) if {*one.targets} == {*left} else one
+                 for one in said]
+            for at, said in draft.claims.items()
+        }  # fmt: skip
+    return is_so
 
 
 def _put_by_hand(

@@ -135,6 +135,10 @@ class Abilities:
         model = self.noun(index).build(colour=None, scale=1.0, seed=0)
         return max(model.length, model.width, model.height) <= _THROWN_M
 
+    def is_put(self, index: int) -> bool:
+        """Whether an object is one that people put somewhere, or leave."""
+        return not self.walks(index) and self.is_light(index)
+
     def fits(self, verb: VerbSense, subjects: Indices, objects: Indices, has_object: bool) -> bool:
         """Whether the subjects can do it, with an object or without one."""
         things = [self.things[one] for one in subjects]

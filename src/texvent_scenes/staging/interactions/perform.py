@@ -83,7 +83,9 @@ def settle_motions(
         if is_led or (
             each.kind == "through" and objects[each.targets[0]].noun in nouns_with("passage")
         ):
-            objects[each.subject] = _directed(objects[each.subject], "towards")
+            goes = is_led and any(one.kind == "travel" for one in description.camera.moves)
+            way: Direction = "left" if goes else "towards"
+            objects[each.subject] = _directed(objects[each.subject], way)
     for each in relations:
         who = objects[each.subject]
         is_aimed = bool({one.kind for one in who.motions} & AIMED) and each.kind == "towards"
@@ -132,7 +134,7 @@ def _directed(said: SceneObject, direction: Direction) -> SceneObject:
     """An actor whose way a relation decides, where no other is said.
 
     On a crosswalk it crosses the road; out of a tunnel, and between things that stand side by
-    side, it comes towards the camera.
+    side, it comes towards the camera; it comes before one that goes along them.
     """
     first = said.motions[0] if said.motions else None
     if first is None or first.kind not in PATH_KINDS or first.direction is not None:

@@ -19,7 +19,7 @@ from texvent_scenes.staging.tracks.track import centred
 _SEEN = 1.8
 """Distance ahead, as a multiple of that aside, from which on a thing is in the picture."""
 _GAP_M = 1.5
-_OUT_SHARE, _BEHIND_M = 0.75, 3.0
+_OUT_SHARE, _BEHIND_M = 0.9, 3.0
 """Share of the route after which the camera comes out of a passage; how far that goes on behind
 it at first, m."""
 _OPEN, _BY_THE_WALL_M = 0.17, 1.3
@@ -30,6 +30,11 @@ _BRAKING_M = 4.0
 """Further ahead of what changes its speed, m."""
 _AHEAD_M = 7.0
 """From the camera to what moves in front of it."""
+
+
+_GAP_AHEAD_M, _OUT_OF_M, _KERB_M = 3.0, 1.6, 0.2
+"""How far beyond the end of the route the gap of a row begins, its width, and from the edge of the
+road to those who are parked, m."""
 
 
 class Lengthened:
@@ -122,6 +127,22 @@ class RoutePlacer:
         group.offsets = [(0.0, number * spacing, 0.0) for number in range(len(group.models))]
         group.fit()
         return np.array([*travel.point(0.5 * travel.length_m + ahead, aside), height])
+
+    def park(self, group: ObjectGroup, height: float) -> Float64Array:
+        """Copies in a row on the right, with a gap from which others come before the camera."""
+        travel, side = self._travel, 1.0
+        aside = travel.clear(side) + 0.5 * max(model.width for model in group.models) + _KERB_M
+        along = travel.length_m + _GAP_AHEAD_M - group.models[0].length
+        places = []
+        for number, model in enumerate(group.models):
+            places.append(travel.point(along + 0.5 * model.length, side * aside))
+            along += model.length + (_OUT_OF_M if number == 0 else 0.5 * _OUT_OF_M)
+        self._taken[side] = along
+        middle = np.mean(places, axis=0)
+        group.offsets = [(float(x), float(y), 0.0) for x, y in np.array(places) - middle]
+        group.plan = replace(group.plan, yaw=NORTH)
+        group.fit()
+        return np.array([*middle, height])
 
     def _place_beside(self, group: ObjectGroup, height: float) -> Float64Array:
         """Each copy on the next free place of the emptier side."""

@@ -315,7 +315,7 @@ def list_around(count: int, wide_m: float, deep_m: float) -> list[tuple[float, f
 
 
 def part_in_midst(group: ObjectGroup, room_m: float) -> None:
-    """Move every second copy of a group to the left, the others to the right, by that room.
+    """Move one half of the copies of a group to the left, the others to the right, by that room.
 
     Two stand side by side, the room in their middle.
     """
@@ -327,13 +327,26 @@ def part_in_midst(group: ObjectGroup, room_m: float) -> None:
                          zip((-1.0, 1.0), group.offsets, strict=True)]  # fmt: skip
         group.fit()
     elif len(group.models) > 1:
-        group.offsets = [
-            (x + (room_m if number % 2 else -room_m), y, z)
-            for number, (x, y, z) in enumerate(group.offsets)
-        ]
+        order = sorted(range(len(group.offsets)), key=lambda one: group.offsets[one][0])
+        left = {*order[: len(order) // 2]}
+        group.offsets = [(x + (-room_m if number in left else room_m), y, z)
+                         for number, (x, y, z) in enumerate(group.offsets)]  # fmt: skip
         group.fit()
 
 
+def find_gap(group: ObjectGroup) -> Float64Array:
+    """[2] the middle of the widest gap between two copies of a group, in its midst if alike."""
+    places = np.array(group.offsets)[:, :2]
+    axis = int(np.ptp(places, axis=0).argmax())
+    places = places[np.argsort(places[:, axis])]
+    gaps, middle = np.diff(places[:, axis]), 0.5 * (len(places) - 2)
+    widest = np.flatnonzero(gaps >= gaps.max() - _ALIKE_M)
+    first = int(min(widest, key=lambda one: abs(one - middle)))
+    return np.asarray(group.centre[:2] + 0.5 * (places[first] + places[first + 1]))
+
+
+_ALIKE_M = 0.01
+"""Difference of gaps that are as wide."""
 _SEAT_BACK_M = 0.03
 """Distance of the middle of a chair behind the hips."""
 

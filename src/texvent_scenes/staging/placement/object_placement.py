@@ -271,6 +271,10 @@ class ObjectPlacer:
         if self._along is not None:
             scene = self._description
             is_goal = scene.index(scene.camera.target) == group.index
+            if len(group.models) > 1 and any(
+                one.kind == "between" and one.targets == (group.index,) for one in scene.relations
+            ):
+                return Goal(self._along.park(group, height), np.zeros(3))
             return Goal(self._along.place(group, height, is_goal=is_goal), np.zeros(3))
         return self._choose_free_goal(group, height)
 

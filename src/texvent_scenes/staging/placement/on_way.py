@@ -21,6 +21,8 @@ _AT_START = ("from", "away from")
 """Relations to the thing that a body leaves."""
 _ALONG, _PANEL = 0.8, 0.96
 """Share of the way along a fence that is beside it; from panel to panel, in widths of one."""
+_LEFT_M, _ASIDE = 0.05, 0.5
+"""Gap between who goes away and what it leaves, m; least cosine of a way across the picture."""
 _EDGE_M, _AHEAD_M = 0.2, 2.0
 """Gap between a train and its platform, whose middle is so far ahead of that of the train, m."""
 _PASSED = 0.7
@@ -42,6 +44,8 @@ def place_on_way(group: ObjectGroup, kind: str, subject: ObjectGroup, height: fl
         return _lead_out(group, subject, height)
     if kind in ("beside", *_AT_START, "past") and group.noun.name in nouns_with("alongside"):
         return _lay_alongside(group, kind, subject, height)
+    if kind in _AT_START and subject.plan.is_path and group.noun.motion == "stand":
+        return _stay_behind(group, subject, height)
     if kind == "past" and subject.plan.is_path and group.noun.name in nouns_with("runs on"):
         _lay_out(group, subject)
     if kind in ("behind", "front", "beside"):
@@ -107,6 +111,16 @@ def _lead_out(group: ObjectGroup, subject: ObjectGroup, height: float) -> Goal:
     group.fit()
     back = 0.5 * (subject.plan.travel_m + group.models[0].length) + _AT_DOOR_M
     return Goal(subject.to_world(-back, 0.0, height - subject.centre[2]), _FIXED)
+
+
+def _stay_behind(group: ObjectGroup, subject: ObjectGroup, height: float) -> Goal:
+    """Where who goes away begins: behind, or aside of those who go along the line of sight."""
+    x = float((group.half_at_rest() + subject.half_at_rest())[0]) + _LEFT_M
+    along = math.cos(subject.plan.yaw)
+    start = subject.to_world(-0.5 * subject.plan.travel_m, 0.0, height - subject.centre[2])
+    is_aside = abs(along) > _ASIDE
+    away = np.array([-math.copysign(x, along) if is_aside else x, 0.0, 0.0])
+    return Goal(start + away, _FIXED)
 
 
 def _lay_alongside(group: ObjectGroup, kind: str, subject: ObjectGroup, height: float) -> Goal:

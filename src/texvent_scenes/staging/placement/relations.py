@@ -41,6 +41,7 @@ from texvent_scenes.staging.placement.object_groups import (
     GAP_M,
     Goal,
     ObjectGroup,
+    find_gap,
     list_around,
 )
 from texvent_scenes.staging.placement.on_way import place_on_way
@@ -98,7 +99,12 @@ def place_on_targets(
         if leads_between(group):
             group.plan = replace(group.plan, yaw=_INTO_PICTURE)
             group.fit()
-        x, y, _ = np.mean([target.centre for target in targets], axis=0)
+        x, y = np.mean([target.centre for target in targets], axis=0)[:2]
+        if len(targets) == 1 and len(targets[0].models) > 1:
+            x, y = find_gap(targets[0])
+        if group.plan.is_path and zone_of(targets[0].noun) == "road":  # it comes out of the gap
+            yaw, out = group.plan.yaw, 0.5 * group.plan.travel_m
+            x, y = x + out * math.cos(yaw), y + out * math.sin(yaw)
         is_said = all(target.scene_object.position_m is not None for target in targets)
         is_fixed = is_said or len(targets) == 1
         return Goal(np.array([x, y, height]), _FIXED if is_fixed else -_AWAY)
