@@ -296,10 +296,16 @@ def _tell_camera(staged: StagedClip) -> str:
     facts = [f"{_round(first.position[2])} m above the ground"] if has_ground else []
     level = "level" if abs(pitch) < 3.0 else f"{abs(pitch):.0f}° {'up' if pitch > 0 else 'down'}"
     facts += [f"looks {level}"]
-    roll = math.degrees(math.asin(float(np.clip(first.rotation[0][2], -1.0, 1.0))))
+    roll = math.degrees(_roll_of(first))
     facts += [f"rolled by {abs(roll):.0f}°"] if abs(roll) >= _ROLLED_DEG else []
     moves = [*_list_camera_moves(cameras), *_list_zooms(first, last)]
     return f"camera: {', '.join(facts)}, {_join(moves) if moves else 'stays'}"
+
+
+def _roll_of(camera: PosedCamera) -> float:
+    """Angle of its right axis above the horizon, rad; that of a camera on its head is over 90°."""
+    right, down, _ = camera.rotation
+    return math.atan2(float(right[2]), -float(down[2]))
 
 
 def _list_camera_moves(cameras: Sequence[PosedCamera]) -> Iterator[str]:
@@ -313,6 +319,9 @@ def _list_camera_moves(cameras: Sequence[PosedCamera]) -> Iterator[str]:
     ahead = np.array([one.rotation[2] for one in cameras])
     yaw = np.unwrap(np.arctan2(ahead[:, 1], ahead[:, 0]))
     pitch = np.arcsin(np.clip(ahead[:, 2], -1.0, 1.0))
+    roll = np.unwrap([_roll_of(one) for one in cameras])
+    if float(np.ptp(roll)) >= _TURNS:
+        yield f"rolls by {math.degrees(float(np.ptp(roll))):.0f}°"
     for angles, (less, more) in ((yaw, ("right", "left")), (pitch, ("down", "up"))):
         turn, range_rad = float(angles[-1] - angles[0]), float(np.ptp(angles))
         if abs(turn) >= _TURNS:

@@ -253,6 +253,33 @@ def _claim_levels(draft: SceneDraft) -> None:
         draft.claim(token, "eye level", "", own)
 
 
+_GOING_BY = {"move", "slide"}
+"""Motions of what a moving camera goes past, as a sentence says it."""
+
+
+def _pass_fixed(draft: SceneDraft) -> None:
+    """Have the camera go past what is fixed, which does not move: "trees slide by"."""
+    for at, claims in [*draft.claims.items()]:
+        verb = draft.tokens[at]
+        is_by = any(one.value.relation == "past" for one in verb.all("verb"))
+        is_by |= draft.beside(verb, 1).text in word_set("things", "by")
+        about = {one.subject for one in claims if one.subject is not None and verb.has("verb")}
+        fixed = [n for n in sorted(about) if draft.noun(n).habitat == "fixed"
+                 and not draft.is_light(n)
+                 and not draft.targets([n], ["past"])
+                 and {one["kind"] for one in draft.things[n]["motions"]} <= _GOING_BY
+                 and not any("speed_m_s" in one for one in draft.things[n]["motions"])]  # fmt: skip
+        if not (is_by and fixed and len(fixed) == len(about)):
+            continue
+        for index in fixed:
+            draft.things[index]["motions"] = []
+        draft.claims[at] = []
+        draft.claim(verb, "camera", "past", [None], fixed)
+        going = [n for n in range(len(draft.things)) if draft.can_go(n) and draft.goes(n)]
+        if not any(one["kind"] in ("travel", "follow", "truck") for one in draft.moves):
+            draft.add_move({"kind": "follow" if going else "truck"})
+
+
 _DECISIONS: tuple[Callable[[SceneDraft], object], ...] = (
     _choose_gender,
     _lead_view,
@@ -273,5 +300,6 @@ _DECISIONS: tuple[Callable[[SceneDraft], object], ...] = (
     _look_up,
     _bring_weather,
     _claim_levels,
+    _pass_fixed,
 )
 """Decisions, in their order."""
