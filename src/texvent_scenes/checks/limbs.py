@@ -99,9 +99,8 @@ def list_headless(
     """Notes of people of whom only a part without the head is in the image."""
     for index, said in enumerate(description.objects):
         own = [one for one in actors if one.object_index == index]
-        if own and said.noun in PERSON_NOUNS - {"person"} - nouns_with("told by the head") and not _has_head(
-            own, cameras, times, size
-        ):  # fmt: skip
+        is_noted = said.noun in PERSON_NOUNS - {"person"} - nouns_with("told by the head")
+        if own and is_noted and not _has_head(own, cameras, times, size):
             yield f"the head of the {said.noun} is out of the picture"
 
 

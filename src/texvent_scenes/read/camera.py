@@ -179,7 +179,7 @@ def _keep_in_view(draft: SceneDraft, verb: Token, targets: Indices) -> None:
     for token in (verb, *[one for one in after if one.is_framed][:1]):
         is_centred = not word_set("things", "centred").isdisjoint(token.text.split())
         draft.claim(token, "in image", "centre" if is_centred else "", about)
-    if about:
+    if about and len(draft.things) > 1:
         draft.parts["camera"].setdefault("target", about[0])
     for token in draft.tokens[: verb.at]:
         senses = [one.value for one in token.all("verb") if one.value.who == "camera"]

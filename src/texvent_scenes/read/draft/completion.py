@@ -250,7 +250,9 @@ def _claim_levels(draft: SceneDraft) -> None:
             one.has("camera", "shot") for one in said
         )
         own: list[int | None] = [*(flying[-1:] if is_flyer else ())] or [None]
-        draft.claim(token, "eye level", "", own)
+        led = draft.beside(token, -1).text
+        is_own = led.endswith(("'s", "’s")) or led in word_set("things", "owners")
+        draft.claim(token, "eye level", "own" if is_own and own == [None] else "", own)
 
 
 _GOING_BY = {"move", "slide"}
