@@ -324,8 +324,6 @@ def _decide_motion(motion: Motion | None, noun: Noun) -> tuple[Motion, ...]:
         is_lifted = motion.direction in _VERTICAL and noun.motion in ("stand", "roll")
         usual = "slide" if is_lifted else _GOING.get(noun.motion, noun.motion)
         motion = replace(motion, kind=usual)
-    elif motion.kind == "roll" and noun.name in nouns_with("on castors"):
-        motion, is_lifted = replace(motion, kind="slide"), False
     else:
         is_lifted = motion.kind == "slide" and noun.name in nouns_with("flat pattern")
     if motion.kind in ("hover", "float") and motion.direction in _UPRIGHT:

@@ -7,6 +7,7 @@ here, because scenes are continuous functions of time; the generator converts to
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import Any, Protocol
@@ -254,6 +255,14 @@ class Environment:
     """Whether a room's ceiling is hung: panels in a grid of rails, some of them luminous."""
     has_highlights: bool = False
     """Whether light above white is kept; else it is compressed, so that none is brighter."""
+
+    @property
+    def ceiling_m(self) -> float:
+        """Height of the ceiling, m; inf = there is none."""
+        if self.ground is not Ground.FLOOR:
+            return math.inf
+        is_corridor = self.corridor_half_width is not None
+        return CORRIDOR_HEIGHT_M if is_corridor else CEILING * self.room_half_size
 
 
 class RenderedScene(Protocol):

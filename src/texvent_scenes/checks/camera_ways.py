@@ -74,7 +74,8 @@ def is_macro(staged: StagedClip, claim: Claim) -> bool:
 def is_at_eye_level(staged: StagedClip, claim: Claim) -> bool:
     """Whether what flies ends about as high as eyes are, or the camera looks level at a subject.
 
-    Of who has a face, that is as high as the upper half of the body.
+    Of who has a face, that is as high as the upper half of the body; of an animal where it is said
+    that the eyes are its own.
     """
     if claim.subject is not None:
         low, high = _EYES_M
@@ -85,7 +86,7 @@ def is_at_eye_level(staged: StagedClip, claim: Claim) -> bool:
     if not (is_level and staged.scene.actors):
         return bool(is_level)
     main = choose_main(staged.description, staged.scene.actors)
-    if main.noun.name not in PERSON_NOUNS:
+    if main.noun.name not in PERSON_NOUNS and claim.value != "own":
         return True
     tops = [main.corners(one)[:, 2].max() for one in staged.times]
     heights = [one.position[2] for one in cameras]

@@ -23,6 +23,7 @@ from texvent_scenes.checks.water import wet_share
 from texvent_scenes.colours import name_colour
 from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.nouns import VARIANTS
+from texvent_scenes.models.shapes import bounds, moved
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.raycast.ground_truth import cast_centres
 from texvent_scenes.raycast.render import world_and_shapes
@@ -39,11 +40,14 @@ _LEAST_SHARE, _MOST_SCENERY = 0.004, 4
 _STAYS, _STIRS, _TURNS, _HALF = 0.05, 0.01, math.radians(4.0), 0.6
 """Way of a body that stays, in its sizes and m; way of a part that moves, in those; turn that is
 told; share of a body, of which less is seen than of one that is hidden by half."""
-_SUPPORTED_M, _GROUND_M = 0.06, 0.12
-"""Gap to the support of a body, and height up to which it is on the ground, m."""
+_SUPPORTED_M, _GROUND_M, _APART = 0.06, 0.12, 0.15
+"""Gap to the support of a body, and height up to which it is on the ground, m; gap to what carries
+it from which on it is in the air, in its heights."""
 _CAMERA_M, _ZOOM, _STEEP = 0.03, 1.04, 0.85
 """Way and ratio of focal lengths of a camera that are told; upward part of the sight of one that
 looks straight down or up."""
+_NEUTRAL = {"black", "dark grey", "grey", "white"}
+"""Names of colours without a hue."""
 _MATERIALS = {Texture.STRIPES, Texture.CHECKS, Texture.SPOTS, Texture.TILES, Texture.BOARDS,
               Texture.STONE, Texture.CONCRETE, Texture.BRICK, Texture.WOOD, Texture.FUR,
               Texture.FEATHERS, Texture.CLOTH, Texture.METAL, Texture.RUST, Texture.LEATHER,
@@ -168,6 +172,9 @@ def _tell_look(surface: Counter[tuple[str, Texture]]) -> str:
         textures[texture] += count
     (first, _), *others = colours.most_common(_MOST_COLOURS) or [("", 0)]
     named = [first, *(name for name, count in others if count >= _MUCH * colours.total())]
+    hues = [name for name, _ in colours.most_common() if name not in _NEUTRAL]
+    if hues and not {*named} - _NEUTRAL and colours[hues[0]] >= _MUCH * colours.total():
+        named[-1] = hues[0]  # three greys hide no green
     mostly = [one.name.lower() for one, count in textures.items()
               if one in _MATERIALS and count >= _HALF * textures.total()]  # fmt: skip
     return ", ".join(filter(None, [_join(named), *mostly]))
@@ -227,7 +234,14 @@ def _tell_place_of(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
         carriers = [other for other in staged.scene.actors
                     if other.track is one.track.anchor.carrier]  # fmt: skip
         if carriers:
-            return f"carried by the {_plain(carriers[0].noun.name)}"
+            noun = _plain(carriers[0].noun.name)
+            gap_m = _gap_between(one, carriers[0], staged.times[at])
+            is_apart = gap_m > _APART * one.model.height
+            return (
+                f"in the air, {_round(gap_m)} m from the {noun}"
+                if is_apart
+                else f"carried by the {noun}"
+            )
     low = body.middle[at] - 0.5 * body.size[at]
     for index, copies in enumerate(staged.boxes):
         for other in copies:
@@ -243,6 +257,17 @@ def _tell_place_of(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
     if low[2] > _GROUND_M:
         return f"{_round(low[2])} m above the {ground}"
     return f"{'in' if is_wet and low[2] < -_GROUND_M else 'on'} the {ground}"
+
+
+def _gap_between(one: Actor, other: Actor, time_s: float) -> float:
+    """Least gap between the boxes around the shapes of two bodies, m."""
+    placed = [each.place(time_s) for each in (one, other)]
+    boxes = [np.array([bounds([part]) for part in moved(each.parts, each.to_world)])
+             for each in placed]  # fmt: skip
+    first, second = boxes[0][:, None], boxes[1][None]
+    off = np.maximum(np.maximum(first[..., 0, :] - second[..., 1, :],
+                                second[..., 0, :] - first[..., 1, :]), 0.0)  # fmt: skip
+    return float(np.linalg.norm(off, axis=-1).min())
 
 
 def _bears(other: BodyBoxes, body: BodyBoxes, at: int) -> bool:
@@ -296,10 +321,16 @@ def _tell_camera(staged: StagedClip) -> str:
     facts = [f"{_round(first.position[2])} m above the ground"] if has_ground else []
     level = "level" if abs(pitch) < 3.0 else f"{abs(pitch):.0f}° {'up' if pitch > 0 else 'down'}"
     facts += [f"looks {level}"]
-    roll = math.degrees(math.asin(float(np.clip(first.rotation[0][2], -1.0, 1.0))))
+    roll = math.degrees(_roll_of(first))
     facts += [f"rolled by {abs(roll):.0f}°"] if abs(roll) >= _ROLLED_DEG else []
     moves = [*_list_camera_moves(cameras), *_list_zooms(first, last)]
     return f"camera: {', '.join(facts)}, {_join(moves) if moves else 'stays'}"
+
+
+def _roll_of(camera: PosedCamera) -> float:
+    """Angle of its right axis above the horizon, rad; that of a camera on its head is over 90°."""
+    right, down, _ = camera.rotation
+    return math.atan2(float(right[2]), -float(down[2]))
 
 
 def _list_camera_moves(cameras: Sequence[PosedCamera]) -> Iterator[str]:
@@ -313,6 +344,9 @@ def _list_camera_moves(cameras: Sequence[PosedCamera]) -> Iterator[str]:
     ahead = np.array([one.rotation[2] for one in cameras])
     yaw = np.unwrap(np.arctan2(ahead[:, 1], ahead[:, 0]))
     pitch = np.arcsin(np.clip(ahead[:, 2], -1.0, 1.0))
+    roll = np.unwrap([_roll_of(one) for one in cameras])
+    if float(np.ptp(roll)) >= _TURNS:
+        yield f"rolls by {math.degrees(float(np.ptp(roll))):.0f}°"
     for angles, (less, more) in ((yaw, ("right", "left")), (pitch, ("down", "up"))):
         turn, range_rad = float(angles[-1] - angles[0]), float(np.ptp(angles))
         if abs(turn) >= _TURNS:

@@ -19,7 +19,7 @@ from texvent.camera import PosedCamera, project
 from texvent.sensor import SensorSize
 from texvent_scenes.checks.body_boxes import BodyBoxes, body_of
 from texvent_scenes.checks.edges import find_cut_subject, find_merged, list_covering
-from texvent_scenes.checks.limbs import find_tiny, list_headless
+from texvent_scenes.checks.limbs import find_ageless, find_tiny, list_headless
 from texvent_scenes.checks.looks import find_unlike, is_ball
 from texvent_scenes.checks.phases import (
     find_airborne_meals,
@@ -199,6 +199,7 @@ def _find_misstaged(
     cameras, times, size, _ = clip
     yield from find_undone(description, scene.actors, seen, times)
     yield from find_tiny(description, scene.actors, cameras, times, size)
+    yield from find_ageless(description, scene.actors, cameras, times, size)
     yield from find_near(scene, description, cameras, times)
     yield from find_misframed(scene, description, cameras, times, size)
 

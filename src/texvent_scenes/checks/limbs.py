@@ -22,6 +22,7 @@ from texvent_scenes.models.activities import (
     motion_of,
 )
 from texvent_scenes.models.protocol import Pose
+from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor
 
@@ -75,6 +76,19 @@ def find_tiny(
                 yield Violation("motion", kind, line)
 
 
+def find_ageless(
+    description: SceneDescription, actors: Sequence[Actor], cameras: Sequence[PosedCamera],
+    times: Sequence[float], size: SensorSize,
+) -> Iterator[Violation]:  # fmt: skip
+    """People whose face or whole height tells their age, of whom the head is not in the image."""
+    for index, said in enumerate(description.objects):
+        own = [one for one in actors if one.object_index == index]
+        is_told = said.noun in nouns_with("told by the head")
+        if own and is_told and not _has_head(own, cameras, times, size):
+            line = f"the {said.noun}: the head is out of the picture, a part of a body is in it"
+            yield Violation("noun", said.noun, line)
+
+
 def list_headless(
     description: SceneDescription,
     actors: Sequence[Actor],
@@ -85,9 +99,8 @@ def list_headless(
     """Notes of people of whom only a part without the head is in the image."""
     for index, said in enumerate(description.objects):
         own = [one for one in actors if one.object_index == index]
-        if own and said.noun in PERSON_NOUNS - {"person"} and not _has_head(
-            own, cameras, times, size
-        ):  # fmt: skip
+        is_noted = said.noun in PERSON_NOUNS - {"person"} - nouns_with("told by the head")
+        if own and is_noted and not _has_head(own, cameras, times, size):
             yield f"the head of the {said.noun} is out of the picture"
 
 

@@ -21,8 +21,8 @@ _REST = Pose(0.0, 0.0, 0.0, "stand")
 _HUES = ("red", "orange", "yellow", "green", "blue", "purple", "pink")
 _COLOURFUL = 2
 """Hues of what is colourful."""
-_HIP_M = 1.0
-"""Height of what is low, m."""
+_HIP_M, _SLENDER, _HIGH_M = 1.0, 1.25, 1.9
+"""Height of what is low, m; height of what is tall, in its widths, or m."""
 _EVEN, _EGG, _LONG, _FLAT, _MOST, _TINGE = 0.8, 0.65, 2.5, 0.3, 0.5, 0.02
 """Ratio of two extents that are about equal; of those of a ball or an egg; of the longest to the
 middle one of what is long; of the height to the others of what is flat; shares of a surface that
@@ -107,6 +107,12 @@ def _is_flat(actor: Actor) -> bool:
     return model.height <= _FLAT * min(model.length, model.width)
 
 
+def _is_tall(actor: Actor) -> bool:
+    """Whether it is higher than wide, or than a person."""
+    model = actor.model
+    return model.height >= min(_SLENDER * max(model.length, model.width), _HIGH_M)
+
+
 def _is_low(actor: Actor) -> bool:
     """Whether it is lower than a person's hip, and than it is long."""
     model = actor.model
@@ -122,6 +128,7 @@ _LOOKS: Mapping[str, Callable[[Actor], bool]] = {
     "long": _is_long,
     "flat": _is_flat,
     "low": _is_low,
+    "tall": _is_tall,
     "narrow": _is_long,
     "furry": _made_of(Texture.FUR, Texture.FEATHERS),
     "shiny": _made_of(Texture.METAL, Texture.LACQUER, Texture.PANE, Texture.MIRROR),

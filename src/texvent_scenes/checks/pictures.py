@@ -35,7 +35,8 @@ _SIZE, _LEAST_LEVELS, _WHITE, _LEAST_SHARE = SensorSize(120, 90), 6.0, 30.0, 0.0
 """Size of small pictures; difference of a pixel, of 255, that is seen, and that makes snow white;
 share of those that are."""
 _SEEN = {"has_snow": (_WHITE, _LEAST_SHARE), "clouds": (_LEAST_LEVELS, 0.02),
-         "is_wet": (20.0, 0.03), "weather_amount": (12.0, 0.01)}  # fmt: skip
+         "is_wet": (20.0, 0.03), "weather": (12.0, 0.01),
+         "weather_amount": (12.0, 0.01)}  # fmt: skip
 """Kind → least difference and share that show it, if others than usual: of clouds no panes that
 mirror them, of a wet ground more than a faint sheen, of heavy snow as much as makes it so."""
 _SOFT = ((25.0, 0.006), (50.0, 0.002))
@@ -135,7 +136,9 @@ def find_unshown(
     """Words of light, sky, ground, weather, effects, rotation and a place that leave no trace."""
     place, said, drawn = scene.place, description.place, SmallPictures(scene, times)
     for name, value, other in _list_without(scene, description):
-        is_soft = any(one.body == "medium" for one in _EMITTERS.get(str(value), ()))
+        is_soft = name != "weather" and any(
+            one.body == "medium" for one in _EMITTERS.get(str(value), ())
+        )
         bounds = _SOFT if is_soft else (_SEEN.get(name, (_LEAST_LEVELS, _LEAST_SHARE)),)
         is_told = any(drawn.differ(other, least=least, levels=levels) for levels, least in bounds)
         if name == "is_wet" and description.light.kind in _DARK:

@@ -22,8 +22,6 @@ from texvent_scenes.models.places import PlaceModel
 from texvent_scenes.models.shapes import bounds, moved
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.rendered_scene import (
-    CEILING,
-    CORRIDOR_HEIGHT_M,
     Environment,
     Float64Array,
     Ground,
@@ -33,6 +31,7 @@ from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.placement.zones import zone_of
 from texvent_scenes.staging.surroundings.environment import lies_ashore
 from texvent_scenes.staging.surroundings.road_line import RoadLine
+from texvent_scenes.staging.surroundings.threads import is_still
 
 _FREE = frozenset({"fly", "hover", "float", "rise", "sink", "fall", "jump", "bounce", "swing",
                    "throw", "orbit", "swim", "surf", "sail", "paddle", "row", "hang", "topple",
@@ -65,17 +64,10 @@ its middle to these, in lengths."""
 _CROSSING = 0.7
 """Least share of the way of one who crosses a road that leads across it."""
 _CORD_M = 0.5
-"""Most from the top of a lamp that hangs to the ceiling above it, m."""
+"""Most from the top of a lamp that swings to the ceiling above it, m; one that is still has a cord
+to it."""
 _SHALLOW_M = 0.4
 """From an edge of a road or of water to what is beyond it."""
-
-
-def _ceiling_of(place: PlaceModel, surroundings: Environment) -> float:
-    """Height of the ceiling of a place, m; inf = it has none."""
-    if not place.is_room:
-        return math.inf
-    is_corridor = surroundings.corridor_half_width is not None
-    return CORRIDOR_HEIGHT_M if is_corridor else CEILING * surroundings.room_half_size
 
 
 def find_misplaced(
@@ -109,7 +101,8 @@ def find_misplaced(
         if not (lost or is_free) and bodies.needs_support(number):
             lost += _list_strays(one, place, line, half_m, times) if bodies.is_alone(number) else []
         hangs = one.noun.name in nouns_with("hangs from a ceiling")
-        if hangs and one.corners(0.0)[:, 2].max() < _ceiling_of(place, surroundings) - _CORD_M:
+        is_loose = math.isinf(surroundings.ceiling_m) or not is_still(one, times[-1])
+        if hangs and is_loose and one.corners(0.0)[:, 2].max() < surroundings.ceiling_m - _CORD_M:
             lost.append(Violation("support", "", "hanging from nothing"))
         for kind, value, text in lost:
             yield Violation(kind, value, f"the {one.name} {text}")

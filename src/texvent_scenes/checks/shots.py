@@ -30,8 +30,10 @@ _STEPS, _CORE = 49, 0.4
 box, along each axis, that is surely inside that part."""
 _TURNING = frozenset({"pan", "tilt", "roll", "zoom", "handheld", "shake"})
 """Moves of a camera that stays where it is."""
-_STILL = 1e-6
-"""Change of position, m, of direction, or of focal length, of a camera that stays."""
+_TREMBLING = ("handheld", "shake")
+_STILL, _SLIGHT = 1e-6, 0.02
+"""Change of position, m, of direction, or of focal length, of a camera that stays; of moves other
+than trembling, per metre to what it looks at, or of directions."""
 _SAID = {"low": "low angle", "top": "view from the top", "aerial": "view from the air",
          "close": "close-up", "side": "view of its side", "front": "view of its front",
          "back": "view from behind"}  # fmt: skip
@@ -70,11 +72,13 @@ def find_misframed(
         if not _keeps_inside(followed, cameras, times, size):
             line = f"follow of the camera: the {followed.name} leaves the image"
             yield Violation("move", "follow", line)
+    reach_m = scene.camera_path.framing.distance_m
     met = _find_met(scene, times) if set(kinds) - _TURNING else ""
     for kind in kinds:
         if met and kind not in _TURNING:
             yield Violation("move", kind, f"{kind} of the camera: it goes through the {met}")
-        elif all(_is_still(cameras[0], one) for one in cameras):
+        elif all(_is_still(cameras[0], one, 0.0 if kind in _TREMBLING else reach_m)
+                 for one in cameras):  # fmt: skip
             yield Violation("move", kind, f"{kind} of the camera: it stays where it is")
 
 
@@ -176,12 +180,17 @@ def _extent(points: Float64Array, camera: PosedCamera, size: SensorSize) -> floa
     return float(max(np.ptp(x) / size.width, np.ptp(y) / size.height))
 
 
-def _is_still(one: PosedCamera, other: PosedCamera) -> bool:
-    """Whether two poses of a camera are the same."""
+def _is_still(one: PosedCamera, other: PosedCamera, reach_m: float) -> bool:
+    """Whether nobody sees that two poses of a camera are not the same.
+
+    `reach_m`: distance of what it looks at; 0: each difference is seen.
+    """
+    slight = _SLIGHT if reach_m else _STILL
     return all(
-        float(np.abs(np.subtract(*pair)).max()) <= _STILL
-        for pair in ((one.position, other.position), (one.rotation, other.rotation),
-                     (one.focal, other.focal))
+        float(np.abs(np.subtract(*pair)).max()) <= most
+        for pair, most in (((one.position, other.position), max(_SLIGHT * reach_m, _STILL)),
+                           ((one.rotation, other.rotation), slight),
+                           ((one.focal, other.focal), slight))
     )  # fmt: skip
 
 

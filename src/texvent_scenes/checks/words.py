@@ -106,6 +106,8 @@ _LIT_SHARE = 0.5
 """Share of the period of a lamp that blinks for which it is lit."""
 _MOSTLY = 0.75
 """Share of the clip in which what swims is in the water."""
+_CENTRAL = 0.17
+"""Most distance from the middle of the image of what is there, in its widths."""
 _STRAY, _UNEVEN, _LOOSE = 0.12, 2.0, 0.3
 """Most departure of a row from its line, in gaps; most ratio of its gaps; most gap in a stack, in
 heights."""
@@ -346,14 +348,16 @@ def _is_in_box(one: Actor, other: Actor, time_s: float) -> bool:
 
 
 def _stays_in_image(staged: StagedClip, claim: Claim) -> bool:
-    """Whether the middle of each body is in the image all the time."""
+    """Whether the middle of each body is in the image all the time, of what is "centred" there."""
+    off = np.array([one.seen[:, 0] for one in staged.own_boxes(claim)])
+    focal = np.array([staged.scene.camera(time_s).focal for time_s in staged.times])
     for one in staged.own(claim):
         for time_s in staged.times:
             corners = one.corners(time_s)
             middle = 0.5 * (corners.min(axis=0) + corners.max(axis=0))
             if not is_any_inside(middle[None], staged.scene.camera(time_s), staged.size):
                 return False
-    return True
+    return claim.value != "centre" or bool((np.abs(off * focal) <= _CENTRAL).all())
 
 
 def _is_before_sky(staged: StagedClip, claim: Claim) -> bool:

@@ -11,7 +11,7 @@ from texvent.prompt_report import Substitution
 from texvent_scenes.description import Claim, Dependence
 from texvent_scenes.models.activities import PERSON_NOUNS, SAT
 from texvent_scenes.models.protocol import Noun
-from texvent_scenes.models.tables import trait_values
+from texvent_scenes.models.tables import nouns_with, trait_values
 from texvent_scenes.read.draft.completion import complete
 from texvent_scenes.read.draft.copies import OPPOSITE, halve, take_turns
 from texvent_scenes.read.draft.scene_draft import SceneDraft
@@ -199,6 +199,10 @@ def _give_each(draft: SceneDraft) -> None:
             one["count"] = people
 
 
+_SEATS = nouns_with("seat") | trait_values("ridden").keys()
+"""Nouns on which people sit of whom nothing else is known."""
+
+
 def _build(draft: SceneDraft, prompt: str) -> Scene:
     """The scene."""
     for index, one in enumerate([*draft.things]):
@@ -217,7 +221,10 @@ def _build(draft: SceneDraft, prompt: str) -> Scene:
     for one in draft.things:
         done = {each["kind"] for each in one["relations"]} & word_set("things", "doing")
         if one.pop("is_lost", False) and not done and not one["motions"]:
-            one["motions"].append({"kind": "stand"})
+            below = {draft.things[to]["noun"] for each in one["relations"] for to in each["to"]
+                     if each["kind"] in ("on", "ride")}  # fmt: skip
+            is_seated = one["noun"] in PERSON_NOUNS and bool(below & _SEATS)
+            one["motions"].append({"kind": "sit" if is_seated else "stand"})
         for relation in one["relations"]:
             relation["to"] = [ids[target] for target in relation["to"]]
     for each in (draft.parts["camera"], *draft.effects):

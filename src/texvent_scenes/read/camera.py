@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
+from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.draft.abilities import MEANS, Indices
 from texvent_scenes.read.draft.scene_draft import SceneDraft, split_move, turn_by
@@ -170,8 +171,16 @@ def _make_move(draft: SceneDraft, verb: Token, move: dict[str, Any], targets: li
 
 def _keep_in_view(draft: SceneDraft, verb: Token, targets: Indices) -> None:
     """Leave it to the staged scene whether something stays in the image; a pan to it follows it."""
-    about = targets or draft.last.subjects[:1] or [*range(len(draft.things))][:1]
-    draft.claim(verb, "in image", "", about)
+    meant, persons = draft.beside(verb, 1).text, draft.find(PERSON_NOUNS)
+    known = [*draft.last.subjects, *draft.last.nearest, *range(len(draft.things))]
+    fits = [one for one in known if (one in persons) == (meant in ("him", "her"))]
+    about = targets or (fits if meant in ("it", "him", "her") else known)[:1]
+    after = draft.tokens[verb.at + 1 :]
+    for token in (verb, *[one for one in after if one.is_framed][:1]):
+        is_centred = not word_set("things", "centred").isdisjoint(token.text.split())
+        draft.claim(token, "in image", "centre" if is_centred else "", about)
+    if about and len(draft.things) > 1:
+        draft.parts["camera"].setdefault("target", about[0])
     for token in draft.tokens[: verb.at]:
         senses = [one.value for one in token.all("verb") if one.value.who == "camera"]
         if {one.kind.split()[0] for one in senses} & _TURNS and draft.shows(token):

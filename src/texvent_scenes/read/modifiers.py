@@ -56,6 +56,7 @@ def say_modifiers(draft: SceneDraft, group: Group, index: int) -> None:
             draft.claim(token, "row", "along", [index])
         if token.text in word_set("things", "heaps"):
             draft.claim(token, "stack", "", [index])
+        draft.claim(token, "look", "tall", [index] if token.text == "tall" else [])
         is_side = token.text in ("left", "right")  # "the left ball"
         draft.show(*([token] if token.has("hollow", "partitive") or is_side else []))
         draft.things[index] |= {"placement": token.text} if is_side else {}

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from texvent_scenes.description import SEEN
 from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
@@ -32,6 +33,7 @@ from texvent_scenes.read.parsing.lexicon import (
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
 from texvent_scenes.read.parts import claim_fine
 from texvent_scenes.spec.scene import MAX_BODIES
+from texvent_scenes.words import list_plurals
 
 
 def pick_group(draft: SceneDraft, group: Group, known: int) -> list[int]:
@@ -82,7 +84,7 @@ def name_group(
         found = name_group(draft, whole, relation, owners)
         return found if relation else []  # what a part does, the whole does not
     elif head is not None and head.has("noun", "pose"):
-        found = _pose_again(draft, group, head)
+        found = _pose_again(draft, group, head) or _find_all_of(draft, group, head)
         if not (found or head.at in draft.fates):
             found = _name_thing(draft, group, head)
     else:
@@ -151,6 +153,25 @@ def _fill(draft: SceneDraft, vessels: Indices, content: Group, token: Token) -> 
         for index in name_group(draft, content):
             draft.things[index]["count"] = 2 * PLURAL_COUNT
             draft.show(token)
+
+
+def _find_all_of(draft: SceneDraft, group: Group, head: Token) -> list[int]:
+    """All things that a group counts again: "both balls" of two kinds, "the two men"."""
+    counts = [(one, one.value("field")[1]) for one in group.modifiers if one.says("field", "count")]
+    is_again = group.article == "the" or any(one.text == "both" for one, _ in counts)
+    if not (counts and is_again and len(counts) == len(group.modifiers) and group.is_plural):
+        return []
+    kinds = (one for name, one in word_table("general").items() if head.text in list_plurals(name))
+    nouns = head.nouns.union(*kinds)
+    for like in (nouns, PERSON_NOUNS if nouns & PERSON_NOUNS else set()):
+        found = draft.find(like)
+        if sum(draft.things[one]["count"] for one in found) == counts[0][1]:
+            draft.show(head, *(one for one, _ in counts))
+            for token, count in counts:
+                draft.claim(token, SEEN, count, found)
+            draft.last.nearest = found
+            return found
+    return []
 
 
 def _name_thing(draft: SceneDraft, group: Group, head: Token) -> list[int]:

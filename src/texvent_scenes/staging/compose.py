@@ -11,14 +11,11 @@ import numpy as np
 
 from texvent.camera import PosedCamera
 from texvent.sensor import SensorSize
-from texvent_scenes.defaults import waits_to_fall
 from texvent_scenes.description import SceneDescription, label_of
 from texvent_scenes.models.activities import PERSON_NOUNS
-from texvent_scenes.models.materials import Material
 from texvent_scenes.models.nouns import AFLOAT, NOUNS
 from texvent_scenes.models.places import PLACES, SEEN_FROM_AFAR, PlaceModel, list_telling
 from texvent_scenes.models.protocol import Noun
-from texvent_scenes.models.shapes import rod
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.rendered_scene import MEDIUM_RECORD, Environment, Ground, Primitives
 from texvent_scenes.spec.scene import CameraMove, Motion
@@ -54,17 +51,13 @@ from texvent_scenes.staging.surroundings.road_line import (
     show_crossing,
 )
 from texvent_scenes.staging.surroundings.scenery import scatter
-from texvent_scenes.staging.tracks.phases import schedule
+from texvent_scenes.staging.surroundings.threads import list_cords, list_threads, thread_at
 
 VIEW_INSTANTS = 7
 """Instants of the clip at which scenery must not hide anything."""
 
 
 _NO_MEDIA = np.zeros(0, MEDIUM_RECORD)
-_THREAD, _THREAD_M = Material((0.15, 0.14, 0.13)), 20.0
-"""Thread on which hangs what is in the air until it falls; its length, m."""
-_GONE = np.array([[1e-4, 0.0, 0.0, 0.0], [0.0, 1e-4, 0.0, 0.0], [0.0, 0.0, 1e-4, -50.0]])
-"""Place of a thread that is gone, far below the ground, where it is a point."""
 _OFF_THE_BED = 0.5
 """Height of swimmers above the bed of the sea, as a multiple of their own."""
 _SUNK, _WADING, _AWASH, _DRAUGHT = -0.18, -0.55, -0.4, -0.3
@@ -104,7 +97,7 @@ class ComposedScene:
         """All shapes at that instant: actors, then scenery, then weather."""
         acting = assemble([self.lamps.place(actor, time_s) for actor in self.actors])
         small = [effect.at(time_s) for effect in self.particles.effects]
-        hanging = assemble([_until(*one, time_s) for one in self.threads])
+        hanging = assemble([thread_at(*one, time_s) for one in self.threads])
         shapes = join_primitives([acting, self.still, hanging, *small])
         factor = np.float32(self.animated_environment.flicker(time_s))
         return replace(shapes, emission=shapes.emission * factor)
@@ -186,7 +179,10 @@ def compose_scene(
         tuple(dict.fromkeys([*placer.not_shown, *_list_late(description, duration_s)])),
         (*dict.fromkeys(placer.notes), *_tell_roads(description, ground, view.road),
          *_tell_dark(description, ground)),
-        placer.orphans, tuple(items), tuple(_list_threads(description, actors, duration_s)),
+        placer.orphans, tuple(items), (
+            *list_threads(description, actors, duration_s),
+            *list_cords(actors, animated_environment.base.ceiling_m, duration_s),
+        ),
     )  # fmt: skip
 
 
@@ -228,36 +224,6 @@ def _tell_roads(
         )
     for x, y, _ in road.crossings:
         yield f"the roads cross at ({round(x, 6) + 0.0:.3g}, {round(y, 6) + 0.0:.3g}) m"
-
-
-def _hang(actor: Actor) -> PlacedModel:
-    """The thread on which a body hangs at first: from its top to beyond the picture."""
-    x, y, top = actor.corners(0.0).max(axis=0) - [
-        *0.5 * np.ptp(actor.corners(0.0)[:, :2], axis=0),
-        0,
-    ]
-    thread = rod(_THREAD, (x, y, top - 0.1 * actor.model.height), (x, y, top + _THREAD_M),
-                 max(0.004, 0.01 * actor.size_m))  # fmt: skip
-    return PlacedModel([thread], np.eye(3, 4), 0)
-
-
-def _list_threads(
-    description: SceneDescription, actors: Sequence[Actor], duration_s: float
-) -> Iterator[tuple[PlacedModel, float]]:
-    """The threads of what waits in the air, and when each lets go, s."""
-    for one in actors:
-        said = description.objects[one.object_index]
-        if waits_to_fall(said):
-            falls = (each.start_s for each in schedule(said.motions, duration_s)
-                     if each.motion.kind == "fall")  # fmt: skip
-            yield _hang(one), next(falls, duration_s)
-
-
-def _until(hung: PlacedModel, end_s: float, time_s: float) -> PlacedModel:
-    """A thread at an instant; it is gone when what hung on it falls."""
-    if time_s < end_s:
-        return hung
-    return replace(hung, to_world=_GONE)
 
 
 def _list_late(description: SceneDescription, duration_s: float) -> Iterator[str]:

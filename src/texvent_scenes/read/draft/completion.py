@@ -250,7 +250,36 @@ def _claim_levels(draft: SceneDraft) -> None:
             one.has("camera", "shot") for one in said
         )
         own: list[int | None] = [*(flying[-1:] if is_flyer else ())] or [None]
-        draft.claim(token, "eye level", "", own)
+        led = draft.beside(token, -1).text
+        is_own = led.endswith(("'s", "’s")) or led in word_set("things", "owners")
+        draft.claim(token, "eye level", "own" if is_own and own == [None] else "", own)
+
+
+_GOING_BY = {"move", "slide"}
+"""Motions of what a moving camera goes past, as a sentence says it."""
+
+
+def _pass_fixed(draft: SceneDraft) -> None:
+    """Have the camera go past what is fixed, which does not move: "trees slide by"."""
+    for at, claims in [*draft.claims.items()]:
+        verb = draft.tokens[at]
+        is_by = any(one.value.relation == "past" for one in verb.all("verb"))
+        is_by |= draft.beside(verb, 1).text in word_set("things", "by")
+        about = {one.subject for one in claims if one.subject is not None and verb.has("verb")}
+        fixed = [n for n in sorted(about) if draft.noun(n).habitat == "fixed"
+                 and not draft.is_light(n)
+                 and not draft.targets([n], ["past"])
+                 and {one["kind"] for one in draft.things[n]["motions"]} <= _GOING_BY
+                 and not any("speed_m_s" in one for one in draft.things[n]["motions"])]  # fmt: skip
+        if not (is_by and fixed and len(fixed) == len(about)):
+            continue
+        for index in fixed:
+            draft.things[index]["motions"] = []
+        draft.claims[at] = []
+        draft.claim(verb, "camera", "past", [None], fixed)
+        going = [n for n in range(len(draft.things)) if draft.can_go(n) and draft.goes(n)]
+        if not any(one["kind"] in ("travel", "follow", "truck") for one in draft.moves):
+            draft.add_move({"kind": "follow" if going else "truck"})
 
 
 _DECISIONS: tuple[Callable[[SceneDraft], object], ...] = (
@@ -273,5 +302,6 @@ _DECISIONS: tuple[Callable[[SceneDraft], object], ...] = (
     _look_up,
     _bring_weather,
     _claim_levels,
+    _pass_fixed,
 )
 """Decisions, in their order."""

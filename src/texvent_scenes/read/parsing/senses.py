@@ -200,6 +200,8 @@ def _see_as_mass(token: Token, tokens: Sequence[Token]) -> Token:
     is_thing = last.has("articles", "verb") and {last.text, before.text} != {"the", "through"}
     if last.text == "between" and token.has("field") and nouns:
         return replace(token, senses=token.all("field"))  # "between orange and shadow"
+    if token_at(tokens, token.at - 1).text in word_set("things", "copulas") and token.has("field"):
+        return replace(token, senses=token.all("field")) if nouns else token  # "the sky is orange"
     is_mass = token.text in word_set("things", "masses")
     return token if is_thing or not is_mass else replace(token, senses=())
 

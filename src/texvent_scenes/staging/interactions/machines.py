@@ -5,9 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+import numpy as np
+
 from texvent_scenes.description import IndexedRelation, SceneDescription
 from texvent_scenes.models.anchors import gripper_of, grips
 from texvent_scenes.models.protocol import Noun
+from texvent_scenes.models.shapes import point
+from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.scene import SceneObject
 from texvent_scenes.staging.actors import Actor, size_of
 from texvent_scenes.staging.interactions.gripping import grip
@@ -50,15 +54,33 @@ def perform_grip(
     over = next((kind for kind in _OVER if kind in below), "") if is_left else ""
     goal = below.get(over)
     support = next((below[kind] for kind in _UNDER if kind in below and below[kind] != goal), None)
-    machine, handled, put = grip(
-        act.kind, cast[who[0]], [cast[n] for n in things], duration_s,
-        support=None if support is None else cast[support],
-        goal=None if goal is None else cast[goal],
-        is_turned=description.objects[act.subject].heading_deg is None, is_inside=over != "on",
-    )  # fmt: skip
+
+    def perform() -> tuple[Actor, list[Actor], Actor | None]:
+        return grip(
+            act.kind, cast[who[0]], [cast[n] for n in things], duration_s,
+            support=None if support is None else cast[support],
+            goal=None if goal is None else cast[goal],
+            is_turned=description.objects[act.subject].heading_deg is None, is_inside=over != "on",
+        )  # fmt: skip
+
+    machine, handled, put = perform()
+    moved = [*things, *([] if support is None else [support])]
+    stated = [n for n in (*who, *moved)
+              if description.objects[cast[n].object_index].position_m is not None]  # fmt: skip
+    is_borne = any(one.kind == "on" and one.subject == act.subject for one in description.relations)
+    if stated == who and not is_borne:  # what it handles comes to it
+        off = np.subtract(cast[who[0]].track.at(0.0).position, machine.track.at(0.0).position)
+        cast.update({n: _shifted(cast[n], off) for n in moved})
+        machine, handled, put = perform()
     cast.update({who[0]: machine, **dict(zip(things, handled, strict=True))})
     if goal is not None and put is not None:
         cast[goal] = put
+
+
+def _shifted(one: Actor, off: Float64Array) -> Actor:
+    """A body at another place, m from where it was."""
+    start = point(np.add(one.track.start, off))
+    return replace(one, track=replace(one.track, start=start))
 
 
 def _list_near(

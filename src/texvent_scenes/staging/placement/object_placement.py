@@ -30,6 +30,7 @@ from texvent_scenes.staging.placement.apart import (
     is_measured,
     list_awaited,
     list_beside,
+    list_moved,
     list_unkept,
     plan_spacing,
 )
@@ -137,7 +138,12 @@ class ObjectPlacer:
         actors: list[Actor] = []
         for index in sorted(self.groups):
             actors.extend(self._populate(self.groups[index], len(actors)))
-        return perform_acts(self._description, actors, self._duration_s)
+        acting = perform_acts(self._description, actors, self._duration_s)
+        for n, why in list_moved(self._description, actors, acting):
+            x, y = objects[n].position_m or (0.0, 0.0)
+            raise ConfigError(f"objects[{n}].position_m is [{x:g}, {y:g}], {why}; "
+                              "leave it out, or what it is on")  # fmt: skip
+        return acting
 
     @staticmethod
     def _why_left_out(noun: str) -> str:

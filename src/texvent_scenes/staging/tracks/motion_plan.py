@@ -121,6 +121,8 @@ def plan_motion(
         start_m: height above the ground at time 0, if it is said.
         heading_deg: heading at time 0, if it is said, degrees.
     """
+    if noun.name in nouns_with("on castors"):
+        motions = [replace(one, kind="slide") if one.kind == "roll" else one for one in motions]
     act = done_on_the_way(motions, noun)
     motions = [_as_it_does(noun, one, start_m or 0.0) for one in motions[: 1 if act else None]]
     is_tall = noun.habitat == "fixed" and model.height > _TALL * max(model.length, model.width)
