@@ -136,25 +136,94 @@ def test_a_small_fast_thing_is_where_it_is_and_nowhere_else(warp, position):
     np.testing.assert_allclose(got, there, atol=1e-3)
 
 
-@examples(15)
+def flows_of_surfaces(rng, shape):
+    """Flows both ways of surfaces that meet: slow, fast and unknown ones, of which some agree."""
+    motions = rng.normal(0, 1, (5, 2)) * rng.choice([0.3, 4.0, 15.0, 60.0, np.nan], (5, 1))
+    motions[:2] = (5, 1), rng.normal(0, 8, 2)
+    side = rng.integers(1, 5)
+    one, other = rng.integers(0, 5, (2, *shape)) * (rng.random((2, *shape)) < 0.6)
+    one, other = (each[::side, ::side].repeat(side, 0).repeat(side, 1) for each in (one, other))
+    ahead, back = (motions[each[: shape[0], : shape[1]]] for each in (one, other))
+    return (ahead + rng.normal(0, 0.1, ahead.shape)).astype(np.float32), -back.astype(np.float32)
+
+
+@examples(25)
 @given(
     st.integers(0, 999),
-    st.sampled_from([(1, 1), (5, 9), (16, 21)]),
+    st.sampled_from([(1, 1), (5, 9), (16, 21), (12, 60)]),
     st.sampled_from([0, 1]),
-    st.floats(0.01, 0.99),
+    st.floats(0.015625, 0.984375, width=32),
 )
 def test_compiled_paths_equal_their_definition(seed, shape, shift, position):
-    rng = np.random.default_rng(seed)
+    rng, position = np.random.default_rng(seed), np.float32(position)
     vectors = tuple(side + shift >> shift for side in shape)
-    forward, backward = rng.normal(0, 4, (2, *vectors, 2)).astype(np.float32)
-    forward[rng.random(vectors) < 0.5] = (5, 1)
-    backward[rng.random(vectors) < 0.5] = (-5, -1)
+    forward, backward = flows_of_surfaces(rng, vectors)
     sweep = contested_paths.find_sweep(forward, backward, shift)
     expected = reference.find_sweep(forward, backward, shift)
     np.testing.assert_array_equal(sweep if sweep.size else np.zeros_like(forward), expected)
+    numbers = contested_paths.number_contested(forward, backward, sweep, shift)
+    found, is_chosen = forward - position * (forward + backward), numbers.reshape(-1) > 0
+    if numbers.size:
+        assert sorted(numbers[is_chosen]) == [*range(1, is_chosen.sum() + 1)]
+        instants = np.array([0.5, position], np.float32)
+        paths = contested_paths.choose_paths((forward, backward), sweep, shift, numbers, instants)
+        found.reshape(-1, 2)[is_chosen] = paths[1, numbers[is_chosen] - 1]
+    wanted = reference.choose_paths(forward, backward, position, shift)
+    np.testing.assert_array_equal(found, wanted)
     images = rng.uniform(0, 255, (2, *shape)).astype(np.float32)
     arguments = *images, forward, backward, position
     np.testing.assert_array_equal(warp_between(*arguments), reference.warp_between(*arguments))
+
+
+@pytest.mark.parametrize("length", [3.0, 6.0, 30.0])
+@pytest.mark.parametrize(("share", "is_contested"), [(0.98, False), (1.02, True)])
+def test_two_surfaces_meet_where_flows_differ_by_four_px_and_a_tenth(length, share, is_contested):
+    # d² = 0.1 · (length² + d²) + 16, of the longer of both flows.
+    across = share * np.sqrt((0.1 * length**2 + 16) / 0.9)
+    forward, backward = constant_flow((3, 70), length), constant_flow((3, 70), -length)
+    backward[1, 20] = -length, across
+    none = np.zeros((0, 0, 2), np.float32)
+    numbers = contested_paths.number_contested(forward, backward, none, 0)
+    assert [*np.flatnonzero(numbers)] == [90] * is_contested
+
+
+@pytest.mark.parametrize(("step", "is_followed"), [(2, False), (3, True), (48, True), (49, False)])
+def test_what_moves_by_three_to_48_px_is_followed(step, is_followed):
+    forward, backward = ball_flows(step, size=1, shape=(9, 60))
+    ground = -6
+    forward[~forward.any(-1)], backward[~backward.any(-1)] = (ground, 0), (-ground, 0)
+    sweep = contested_paths.find_sweep(forward, backward, 0)
+    assert bool(sweep.any()) == is_followed
+    if is_followed:
+        assert (sweep[3:6, 3 : 2 + step] == (step, 0)).all()
+
+
+def error_of(trust, path):
+    """The error, px, of a flow that is trusted so far: by a half at a tenth of the path and 0.3."""
+    return np.sqrt((0.01 * path**2 + 0.1) * np.sqrt(1 / trust - 1))
+
+
+@pytest.mark.parametrize("path", [8.0, 20.0])
+@pytest.mark.parametrize(("kind", "least"), [("swept", 0.5), ("own", 0.3)])
+@pytest.mark.parametrize("more", [-0.03, 0.03])
+def test_a_path_is_taken_from_the_stated_agreement_on(path, kind, least, more):
+    """By one end fully, by the other as far as its flow is trusted; the mean, by one end."""
+    forward, backward = constant_flow((1, 90), 0.0, 50.0), constant_flow((1, 90), 0.0, 50.0)
+    x, half, sweep = 40, int(path) // 2, np.zeros((1, 90, 2), np.float32)
+    own = np.float32([path, 0]) if kind == "own" else np.float32([-24.0, 0])
+    forward[0, x], backward[0, x] = own, (12, 0) if kind == "own" else -own
+    if kind == "own":
+        mean = (path - 12) / 2
+        forward[0, int(np.floor(x - mean / 2 + 0.5))] = mean, 0
+    else:
+        sweep[0, x] = path, 0
+    forward[0, x - half] = path, error_of(least + more, path)
+    backward[0, x + half] = -path, 0
+    numbers = np.zeros(90, np.int32)
+    numbers[x] = 1
+    flows, middle = (forward, backward), np.float32([0.5])
+    chosen = contested_paths.choose_paths(flows, sweep, 0, numbers, middle)[0, 0]
+    assert (chosen.tolist() == [path, 0]) == (more > 0)
 
 
 LEVELS = st.integers(0, 255)

@@ -5,8 +5,10 @@ import pytest
 
 import texvent
 from texvent.frames import Video
+from texvent.io.files import extension_of, writable_formats
 from texvent.pipeline import video_to_events
-from texvent.run.files import RunFiles, write_run
+from texvent.run.files import RunFiles, TruthFolder, run_with_truth, write_run
+from texvent.runtime.progress import NoProgress
 from texvent.settings.resolution import resolve
 from texvent.view.drawing.palettes import PALETTES
 from texvent.view.preview import PREVIEW_KINDS, Preview
@@ -69,3 +71,32 @@ def test_scene_changes_are_told_while_files_are_written(tmp_path):
         on_scene_change=lambda change, t_us: told.append((change.name, t_us)),
     )  # fmt: skip
     assert told == [("FLASH", 20_000)]
+
+
+IDS = ("instance", "class_id")
+HOLD_IDS = ("hdf5", "npz", "dsec")
+
+
+@pytest.mark.parametrize("truth", [(), ("boxes",), ("events",)])
+@pytest.mark.parametrize("name", writable_formats())
+def test_a_file_holds_what_a_run_in_memory_has_as_far_as_it_has_a_place(tmp_path, name, truth):
+    options = {"interpolate": "exact", "label_noise": name in HOLD_IDS}
+    run, path = video_to_events(board_video(), resolve("simulate", options)), tmp_path / "a"
+    files = RunFiles(path.with_suffix(extension_of(name)), format=name, truth=truth)
+    write_run(run, files, on_step=lambda *step: None)
+    read = texvent.load(files.events, size=run.video.size)
+    kept = texvent.EventStream.concat([*run])
+    if truth:
+        kept = run_with_truth(run, TruthFolder(tmp_path / "b", truth), NoProgress())
+    assert (kept.instance is not None) == ("events" in truth)
+    for column in ("x", "y", "t", "p"):
+        np.testing.assert_array_equal(getattr(read, column), getattr(kept, column))
+    for column in ("label", *IDS):
+        if name in HOLD_IDS:
+            np.testing.assert_array_equal(getattr(read, column), getattr(kept, column))
+        else:
+            assert getattr(read, column) is None
+    if "events" in truth:
+        stored = texvent.load_truth(files.truth_folder)
+        np.testing.assert_array_equal(stored.event_instance, kept.instance)
+        np.testing.assert_array_equal(stored.event_class_id, kept.class_id)

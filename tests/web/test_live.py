@@ -297,6 +297,28 @@ def test_odd_numbers_of_a_page_give_json(source):
         source.end()
 
 
+@pytest.mark.parametrize("models", [("esim",), ("esim", "v2e"), ("v2e", "esim", "esim")])
+def test_latency_is_that_of_the_frames_drawn_since_the_model_was_compiled(source, models):
+    live, number = LiveEvents(source, {"simulator": models[0]}), 0
+    for place, model in enumerate(models):
+        if place:
+            live.change(model, None)
+        ages_ms = []
+        for one in range(8):
+            step(live, source, number)
+            with live._changed:  # the frame is counted where it is shown
+                assert live._changed.wait_for(lambda done=one + 1: live._steps == done, 60)
+            ages_ms += [1000.0 * (place + 1) + 200 * one] * (one >= 3)
+            for age_s in (ages_ms[-1] / 1e3 if ages_ms else 7.0, -60.0, 3601.0):
+                live.note_drawn(time.perf_counter() - age_s)
+            told, number = live.describe()["latency_ms"], number + 1
+            wanted = np.percentile(ages_ms, (50, 95)) if ages_ms else []
+            np.testing.assert_allclose(told, wanted, atol=60)
+        assert live.describe()["frames"] == 6  # without those that compiled
+    source.end()
+    live.close()
+
+
 def test_bad_input_is_one_line(capsys, source):
     assert "no such camera: /dev/video77" in refused(capsys, "live", "/dev/video77")
     with LiveServer(LiveEvents(source, {}), "camera", Path()) as page:

@@ -1,6 +1,8 @@
 """`--video-only` and `texvent generators`, as a user meets them."""
 
 import json
+import re
+from dataclasses import replace
 from fractions import Fraction
 
 import h5py
@@ -9,7 +11,9 @@ import pytest
 from tests.cli.running import run
 
 import texvent
+from texvent._registry import GENERATORS
 from texvent.errors import FileFormatError
+from texvent.generation.video_models.known_models import MODELS
 from texvent.generation.videos.stored_video import reopen
 from texvent.pipeline import text_to_video
 from texvent.settings.resolution import resolve
@@ -67,3 +71,30 @@ def test_a_damaged_download_does_not_end_the_list(folder, capsys, monkeypatch):
     assert run("generators") == 0
     rows = capsys.readouterr().out.splitlines()
     assert next(line for line in rows if line.startswith("wan2.2-5b")).split()[1] == "damaged"
+
+
+@pytest.mark.parametrize("fps", ["own", None, Fraction(24), Fraction(30000, 1001), Fraction(23)])
+def test_the_list_of_generators_has_the_facts_of_every_row(capsys, monkeypatch, fps):
+    rows = [one if fps == "own" else replace(one, fps=fps) for one in MODELS.values()]
+    monkeypatch.setattr("texvent.cli.setup.generators.MODELS", {one.name: one for one in rows})
+    assert run("generators", "--json") == 0
+    facts = {one["name"]: one for one in json.loads(capsys.readouterr().out)}
+    assert {*facts} >= {*GENERATORS.entries(), *(one.name for one in rows)}
+    monkeypatch.setenv("COLUMNS", "300")
+    assert run("generators") == 0
+    lines = {line.split()[0]: line for line in capsys.readouterr().out.splitlines() if line}
+    for row in rows:
+        is_low = row.fps is not None and row.fps < 24
+        said = facts[row.name]
+        assert said["fps"] == (None if row.fps is None else float(row.fps))
+        assert said["is_low_fps"] == is_low
+        for name in ("frames", "width", "height", "gpu_gb", "offload_gb", "licence", "of_paper"):
+            assert said[name] == getattr(row, name), name
+        cells = re.split(r" {2,}", lines[row.name].strip())
+        size = "image's" if row.width is None else f"{row.width}x{row.height}"
+        gb = ["-" if one is None else f"{one:g}" for one in (row.gpu_gb, row.offload_gb)]
+        rate = "not known" if row.fps is None else f"{row.fps} low" if is_low else f"{row.fps}"
+        assert cells == [
+            row.name + " *" * row.of_paper, rate, str(row.frames), size,
+            "not known" if gb == ["-", "-"] else " / ".join(gb), row.licence_and_terms,
+        ]  # fmt: skip

@@ -3,6 +3,7 @@
 import io
 import json
 
+import cv2
 import numpy as np
 import pytest
 
@@ -68,6 +69,22 @@ def test_the_picture_of_a_clip_has_its_busiest_50_ms_and_the_boxes_at_their_end(
     picture = preview_png(events, truth_of(times_us, *times_us))
     assert picture == preview_png(events, truth_of(times_us, end_us))
     assert picture != preview_png(events, truth_of(times_us, end_us - 3 * STEP_US))
+
+
+@pytest.mark.parametrize("width", [20, 64, 100, 127, 129, 200, 256, 257, 640])
+def test_boxes_lie_where_their_objects_are_in_a_picture_of_any_sensor(width):
+    height, (x, y, w, h) = width * 3 // 4, (width // 4, width // 4, width // 2, width // 3)
+    truth = truth_of([0], 0)
+    truth.boxes[["x", "y", "w", "h"]] = x, y, w, h
+    png = preview_png(EventStream.empty(SensorSize(width, height)), truth)
+    image = cv2.imdecode(np.frombuffer(png, np.uint8), cv2.IMREAD_COLOR).astype(int)
+    scale = image.shape[1] / width
+    assert scale == min(256 / width, max(1, 256 // width))
+    ink = image[..., 2] - image[..., 0] > 80
+    across = np.flatnonzero(ink[round((y + h / 2) * scale)])
+    down = np.flatnonzero(ink[:, round((x + w * 0.9) * scale)])
+    np.testing.assert_allclose(across[[0, -1]], (x * scale, (x + w) * scale - 1), atol=2)
+    assert down[-1] == pytest.approx((y + h) * scale - 1, abs=2)
 
 
 @pytest.mark.parametrize("began_us", [0, -5, 2**32])

@@ -1,5 +1,6 @@
 """What a layout cannot hold is refused by its numbers, and what it just can is written."""
 
+import json
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -81,3 +82,30 @@ def test_frames_are_those_of_the_video_or_there_are_none(stores: bool, tmp_path:
     with pytest.raises(InputError, match=r"made again: its video .*clips/0\.npy is not there$"):
         export(dataset, "timelens", tmp_path / "none")
     assert not list(tmp_path.glob("*/**/.texvent-*"))
+
+
+@pytest.mark.parametrize("stores", [False, True])
+@pytest.mark.parametrize(
+    ("state", "is_right"),
+    [("own", True), ("gone", False), (None, True), ({"seen": ""}, False), ({"seen": "x"}, False)],
+)
+def test_frames_are_taken_of_a_video_whose_state_was_stored(
+    stores: bool, state: Any, is_right: bool, tmp_path: Path
+) -> None:
+    recipe = clips_recipe(tmp_path, clips=1, variants={"esim": {}}, store_videos=stores)
+    make(recipe, tmp_path / "set")
+    (path,) = sorted((tmp_path / "set/esim").glob("*.json"))
+    record = json.loads(path.read_text())
+    (name,) = record["inputs"]
+    if state == "gone":
+        record["inputs"] = {}
+    elif state != "own":
+        record["inputs"][name] = state
+    path.write_text(json.dumps(record))
+    dataset = StoredDataset.open(tmp_path / "set")
+    if is_right:
+        export(dataset, "timelens", tmp_path / "out")
+        assert [*(tmp_path / "out").rglob("images/*.png")]
+    else:
+        with pytest.raises(InputError, match="is not the video that the events of"):
+            export(dataset, "timelens", tmp_path / "out")

@@ -9,8 +9,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.examples import examples
 
+from texvent.interpolate.dis_flow.definitions import PATCH, step_of
 from texvent.interpolate.dis_flow.estimator import DisFlow, make_level, stretch
-from texvent.interpolate.dis_flow.frame_motion import fit_motion, leads_outside, patch_vectors
+from texvent.interpolate.dis_flow.frame_motion import (
+    find_motions,
+    fit_motion,
+    leads_outside,
+    patch_vectors,
+    pixel_vectors,
+)
 
 WIDTH, HEIGHT = 192, 144
 
@@ -77,13 +84,57 @@ def test_two_layers_a_frame_at_rest_and_few_vectors_tell_no_motion_of_the_frame(
     assert fit_motion(move([[8, 0, 0], [0, 0, 0]]), few) is None
 
 
-def test_patches_move_as_their_middles_do():
-    level = make_level(np.zeros((14, 20), np.float32))
-    vectors = patch_vectors(np.float32([[1, 0.5, 0], [0, 0, 0.25]]), level)
-    assert vectors.shape == (3, 5, 2)
-    # The first patch covers 0..8 px: its middle is 6 px left of the middle, and 3 px above.
-    np.testing.assert_allclose(vectors[0, 0], (1 - 3, -0.75))
-    np.testing.assert_allclose(vectors[2, 4], (1 + 3, 0.75))
+@pytest.mark.parametrize(
+    ("what", "below", "above"),
+    [("share", 0.88, 0.92), ("confirmed", 0.08, 0.12), ("corner", 0.96, 1.04), ("off", 1.1, 0.9)],
+)
+def test_a_motion_of_the_frame_needs_as_much_as_is_stated(what, below, above):
+    rng, found = np.random.default_rng(2), []
+    for much in (below, above):
+        flow = move([[much if what == "corner" else 7.0, 0, 0], [0, 0, 0]])
+        if what == "share":
+            flow[0, rng.random(flow.shape[1:]) > much] = -20
+        if what == "off":
+            flow[1, rng.random(flow.shape[1:]) > 0.85] = much
+        is_confirmed = rng.random(flow.shape[1:]) < (much if what == "confirmed" else 0.5)
+        found.append(fit_motion(flow, is_confirmed))
+    assert found[0] is None
+    assert found[1] is not None
+
+
+@pytest.mark.parametrize(("height", "width"), [(14, 20), (61, 90), (90, 61), (400, 37)])
+def test_pixels_patches_and_the_fit_mean_the_same_motion(height, width):
+    motion = np.float32([[1, 0.05, -0.02], [-2, 0.03, 0.25]])
+    flow = pixel_vectors(motion, (height, width))
+    x, y = places(width, height)
+    wanted = [own[0] + own[1] * x + own[2] * y for own in motion]
+    np.testing.assert_allclose(flow, wanted, atol=1e-4)
+    found = fit_motion(flow, np.ones((height, width), bool))
+    np.testing.assert_allclose(found, motion, atol=1e-4)
+    level = make_level(np.zeros((height, width), np.float32))
+    step = step_of(level)
+    windows = np.lib.stride_tricks.sliding_window_view(flow, (PATCH, PATCH), (1, 2))
+    means = windows[:, ::step, ::step].mean(axis=(-2, -1))
+    np.testing.assert_allclose(patch_vectors(motion, level), np.moveaxis(means, 0, -1), atol=1e-4)
+
+
+@pytest.mark.parametrize(("lost", "is_found"), [((1, 1), False), ((12, 1), True), ((1, 12), True)])
+@pytest.mark.parametrize("reverse", [False, True])
+def test_the_motion_of_the_frame_is_looked_for_where_either_flow_leaves_much_open(
+    lost, is_found, reverse
+):
+    x, y = places()
+    motion = np.array([[3.0, 0, 0], [-2.0, 0, 0]])
+    levels = [make_level(waves(x - dx, y - dy)) for dx, dy in ((0, 0), motion[:, 0])]
+    flows = [move(motion), move(-motion)]
+    for flow, rows in zip(flows, lost, strict=True):
+        flow[0, 60 : 60 + rows] = 20  # of 144 rows
+    if reverse:
+        levels, flows, motion = levels[::-1], flows[::-1], -motion
+    found = find_motions(*levels, tuple(flows))
+    assert (found is not None) == is_found
+    if is_found:
+        np.testing.assert_allclose(found, [motion, -motion], atol=0.05)
 
 
 @pytest.mark.parametrize(("zoom", "degrees"), [(0.8, 0), (1.2, 10)])

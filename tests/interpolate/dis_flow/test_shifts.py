@@ -38,6 +38,37 @@ def test_the_shift_of_a_frame_of_any_size_is_found_within_a_cell(x, y, scale):
     first, second = (view(texture(1), *one, scale=scale) for one in ((0, 0), (x, y)))
     found = shift_between(first, second)
     np.testing.assert_allclose(found, (scale * x, scale * y), atol=2 * scale)
+    np.testing.assert_array_equal(shift_between(second, first), -found)
+    np.testing.assert_array_equal(shift_between(0.2 * first + 9, 0.7 * second), found)
+    turned = [np.ascontiguousarray(one.T) for one in (first, second)]
+    np.testing.assert_array_equal(shift_between(*turned), found[::-1])
+
+
+ASIDE, NEAR, FAR = (0, 0), (14, -12), (30, 18)
+
+
+@pytest.mark.parametrize(
+    ("parts", "wanted"),
+    [
+        # Places in the second frame, or None for another texture, and the correlation with each.
+        ({FAR: 0.62, None: 0.78}, FAR),
+        ({FAR: 0.38, None: 0.92}, None),
+        ({FAR: 0.92, ASIDE: 0.38}, FAR),
+        ({FAR: 0.78, ASIDE: 0.62}, None),
+        ({FAR: 0.71, NEAR: 0.70}, NEAR),
+        ({FAR: 0.84, NEAR: 0.54}, FAR),
+    ],
+)
+@pytest.mark.parametrize("gain", [1.0, 0.1, 0.008])
+def test_a_shift_is_told_by_its_agreement(parts, wanted, gain):
+    image, other = (texture(seed) - 127.5 for seed in (1, 4))
+    second = sum(much * (view(other, 0, 0) if at is None else view(image, *at))
+                 for at, much in parts.items())  # fmt: skip
+    found = shift_between(gain * view(image, 0, 0), gain * second)
+    if wanted is None or gain < 0.01:  # detail of less than two levels says nothing
+        assert found is None
+    else:
+        np.testing.assert_allclose(found, wanted, atol=2)
 
 
 def test_motion_that_patches_find_themselves_is_left_to_them():

@@ -146,3 +146,18 @@ def test_a_ground_at_night_is_wet_by_the_lamps_that_it_mirrors(text, is_mirrored
                  for one in (scene, replace(scene, animated_environment=dry)))  # fmt: skip
     gains = (wet - rest).max(axis=-1) >= 20.0
     assert is_mirrored is False or gains.mean() >= 0.002
+
+
+@pytest.mark.parametrize("noun", ["egg", "globe", "fan", "windmill"])
+@pytest.mark.parametrize(
+    "around", ["", " in the snow", " on a busy street as the camera pans left"]
+)
+def test_whether_rotation_shows_depends_on_nothing_before_or_around_the_body(noun, around):
+    said, scene = stage_text(f"a {noun} spins{around}")
+    camera, (_, hiding) = scene.camera(0.0), stage_text("a cat and a wardrobe")
+    ahead = camera.position + 0.4 * scene.camera_path.framing.distance_m * camera.rotation[2]
+    near = moved(hiding, hiding.actors[1], ahead - hiding.actors[1].middle(0.0)).actors[1]
+    hidden = replace(scene, still=assemble([near.place(0.0)]))
+    told = ["turning" in one.line for one in find_unshown(scene, said, TIMES_S)]
+    assert any(told) == (noun == "egg")
+    assert any("turning" in one.line for one in find_unshown(hidden, said, TIMES_S)) == any(told)

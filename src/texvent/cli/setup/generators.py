@@ -102,7 +102,7 @@ def _describe_model(model: VideoModel) -> tuple[str, ...]:
     return (
         f"{model.name}{' *' if model.of_paper else ''}",
         _is_here(model),
-        f"{model.fps} low" if model.is_low_fps else f"{model.fps}",
+        NOT_KNOWN if model.fps is None else f"{model.fps}{' low' * model.is_low_fps}",
         str(model.frames),
         "image's" if model.width is None else f"{model.width}x{model.height}",
         memory if any(known) else NOT_KNOWN,
