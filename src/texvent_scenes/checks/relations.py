@@ -116,7 +116,8 @@ def find_violations(
         is_queue = who in queues or (kind == "on" and who in piles) or (
             one.kind == "beside" and are_driven(description.objects[who].noun)
         )
-        least = 1 if is_queue else _MOST_COPIES * len(own)  # only the first is at the light, the lowest on a pallet
+        # Only the first stands at the light, only the lowest of a pile is on a pallet.
+        least = 1 if is_queue else _MOST_COPIES * len(own)
         passed = [any(holds(kind, body, [each]) for body in own) for each in others]
         is_part = kind == _PASSAGE and not all(passed)
         if sum(held) < least or not own or is_part:
