@@ -129,7 +129,9 @@ def find_unseen(
     climbed = {i for one in description.relations for i in one.targets
                if one.kind in ("up", "down", "off")}  # fmt: skip
     is_close = description.camera.framing == "close" and scene.actors
-    close = choose_main(description, scene.actors).object_index if is_close else None
+    close = {choose_main(description, scene.actors).object_index} if is_close else set[int]()
+    close |= {one.subject for one in description.relations
+              if one.kind == "hold" and not close.isdisjoint(one.targets)}  # fmt: skip
     outside, small, bodies = list[str](), list[str](), list[list[BodyBoxes]]()
     covered = {one.subject for one in description.relations if one.kind in _COVERING}
     notes = list[str]()
@@ -143,7 +145,7 @@ def find_unseen(
         if own:
             part = _PART if index in climbed else math.inf
             found = _judge(own, seen_own, clip, is_related=index in related, part=part,
-                           is_close=index == close)  # fmt: skip
+                           is_close=index in close)  # fmt: skip
             if any(_is_entered(*each, clip) for each in zip(own, seen_own, strict=True)):
                 found = _Judged(is_unseen=False)
             if found.words is None:

@@ -88,6 +88,7 @@ def find_violations(
             if one.kind in ("kick", "throw", "roll", "hit")}  # fmt: skip
     queues = {one.subject for one in description.claims
               if (one.kind, one.value) == ("row", "queue")}  # fmt: skip
+    piles = {one.subject for one in description.claims if one.kind == "stack"}
     down, handled = _list_knocked(description), _list_handled(description)
     for one in description.relations:
         who = sent.get(one.subject, one.subject) if one.kind == "towards" else one.subject
@@ -112,10 +113,11 @@ def find_violations(
             holds("facing", each, others) for each in copies[one.subject]
         ):
             held = []
-        is_queue = who in queues or (
+        is_queue = who in queues or (kind == "on" and who in piles) or (
             one.kind == "beside" and are_driven(description.objects[who].noun)
         )
-        least = 1 if is_queue else _MOST_COPIES * len(own)  # only the first stands at the light
+        # Only the first stands at the light, only the lowest of a pile is on a pallet.
+        least = 1 if is_queue else _MOST_COPIES * len(own)
         passed = [any(holds(kind, body, [each]) for body in own) for each in others]
         is_part = kind == _PASSAGE and not all(passed)
         if sum(held) < least or not own or is_part:

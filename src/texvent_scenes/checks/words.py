@@ -247,10 +247,12 @@ def is_in_line(places: Float64Array) -> bool:
 
 
 def _is_stack(staged: StagedClip, claim: Claim) -> bool:
-    """Whether bodies of its noun are on top of each other, all but the lowest one."""
+    """Whether bodies of its noun are on top of each other, all but the lowest one; or one, at the
+    end."""
     objects = staged.description.objects
     noun = objects[claim.subject or 0].noun
-    boxes = [one.corners(0.0) for one in staged.scene.actors
+    is_end = claim.value == "end"
+    boxes = [one.corners(staged.duration_s * is_end) for one in staged.scene.actors
              if objects[one.object_index].noun == noun]  # fmt: skip
     if not boxes:
         return False
@@ -259,7 +261,7 @@ def _is_stack(staged: StagedClip, claim: Claim) -> bool:
     rests = [bool(((np.abs(low[n, 2] - high[:, 2]) <= room) & (low[n, :2] < high[:, :2]).all(axis=1)
                    & (high[n, :2] > low[:, :2]).all(axis=1)).any())
              for n in range(len(boxes))]  # fmt: skip
-    return sum(rests) >= max(len(boxes) - 1, 1)
+    return sum(rests) >= (1 if is_end else max(len(boxes) - 1, 1))
 
 
 def _is_in_water(staged: StagedClip, claim: Claim) -> bool:

@@ -348,6 +348,8 @@ def _claim_outcome(
     if act.kind == "work" and verb.text.split()[-1] in word_set("things", "rounds"):
         draft.claim(verb, "rounds", "", [index])
     is_machine = draft.things[index]["noun"] in trait_values("gripper")
+    if verb.text.split()[0] in word_set("things", "stacking"):
+        draft.claim(verb, "stack", "end", objects[:1])
     if act.relation and is_machine:
         draft.claim(verb, "grip", act.relation, [index], objects)
     elif outcome := outcomes["relation"].get(act.relation):

@@ -163,6 +163,8 @@ def add_doer(draft: SceneDraft, clause: Clause) -> list[int]:
     acts = [one for one in acts if is_of_people(one) and len(nouns) == len(clause.objects)]
     is_so = any(draft.fits(one, [doer], objects, bool(nouns)) for one in acts)
     del draft.things[is_so:]
+    for one in draft.things[doer:]:
+        one["is_implied"] = True
     return [doer] if is_so else []
 
 

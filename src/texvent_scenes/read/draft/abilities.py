@@ -123,7 +123,8 @@ class Abilities:
         """Whether people ride an object: what goes or can be sat on, no big wheel."""
         noun = self.noun(index)
         is_ridden = trait_value("ridden", noun.name) or trait_value("seats", noun.name)
-        return bool(is_ridden) or noun.habitat != "fixed" or noun.name in _CARRYING
+        goes = noun.habitat != "fixed" and noun.motion != "roll"  # no ball is driven
+        return bool(is_ridden) or goes or noun.name in _CARRYING
 
     def rises(self, index: int) -> bool:
         """Whether an object that is let go rises, as a balloon does, or flies away."""

@@ -96,6 +96,15 @@ def _find_opponents(draft: SceneDraft) -> None:
             draft.relate(one, "rally", targets)
 
 
+def _look_at_held(draft: SceneDraft) -> None:
+    """Look closely at what is held where nobody is said who holds it: "pouring into a mug"."""
+    camera = draft.parts["camera"]
+    implied = [n for n, one in enumerate(draft.things) if one.pop("is_implied", False)]
+    held = draft.targets(implied, ("hold",))
+    if held and camera.get("framing") == "close":
+        camera.setdefault("target", held[0])
+
+
 def _hang_up(draft: SceneDraft) -> None:
     """Put on a wall of their own what hangs on one by its name: "a wall clock"."""
     hung, walls = nouns_with("hangs on a wall"), nouns_with("only a background")
@@ -284,6 +293,7 @@ def _pass_fixed(draft: SceneDraft) -> None:
 
 _DECISIONS: tuple[Callable[[SceneDraft], object], ...] = (
     _choose_gender,
+    _look_at_held,
     _lead_view,
     _ride_on,
     _do_deeds,

@@ -62,6 +62,8 @@ class _Plan:
     contact_s: float
     is_inside: bool
     """Whether the thing is left in the goal, not on it."""
+    is_stacked: bool = False
+    """Whether the others are on top of each other on the goal."""
 
     @property
     def activity(self) -> str:
@@ -92,7 +94,7 @@ def _settings(value: float, place: int, turn: float) -> tuple[float, float, floa
 def grip(
     kind: str, machine: Actor, things: Sequence[Actor], duration_s: float, *,
     support: Actor | None = None, goal: Actor | None = None, is_turned: bool = True,
-    is_inside: bool = True,
+    is_inside: bool = True, is_stacked: bool = False,
 ) -> tuple[Actor, list[Actor], Actor | None]:  # fmt: skip
     """The machine, the things and the goal of an act.
 
@@ -105,6 +107,7 @@ def grip(
         goal: what it is set down on or in, which is put there.
         is_turned: whether the machine may be turned, its side to the camera.
         is_inside: whether it is left in a goal that has a rim, not on it.
+        is_stacked: whether it is left on the others, which the goal bears.
     """
     row = gripper_of(machine.noun.name)
     if kind == "hold":
@@ -113,7 +116,7 @@ def grip(
         row = replace(row, turn=math.copysign(0.5 * math.pi, row.turn))
     if support is None and is_turned:
         machine = moving(machine, steady(machine.track.at(0.0).position, 0.0))
-    plan = _Plan(machine, row, kind, _contact_s(kind, duration_s), is_inside)
+    plan = _Plan(machine, row, kind, _contact_s(kind, duration_s), is_inside, is_stacked)
     first, *others = things
     level_m = machine.track.at(0.0).position[2]
     pick = 0.0
@@ -190,11 +193,13 @@ def _acting(plan: _Plan, settings: tuple[float, float, float]) -> Actor:
 def _left_height(plan: _Plan, goal: Actor | None, others: Sequence[Actor], first: Actor) -> float:
     """Height at which the bottom of the thing is left, m."""
     level_m = plan.machine.track.at(0.0).position[2]
+    pile_m = sum(one.model.height for one in others)
     if goal is not None:
         rim = find_rim(goal.noun.name, goal.model) if plan.is_inside else None
+        level_m += pile_m if plan.is_stacked else 0.0
         return level_m + (rim.height + _OVER_RIM_M if rim else find_support(goal.model).height)
     fallen = 2.0 * first.model.height if plan.kind == "drop" else 0.0
-    return level_m + fallen + sum(one.model.height for one in others)
+    return level_m + fallen + pile_m
 
 
 def _put_below(
@@ -206,7 +211,10 @@ def _put_below(
     if goal is not None:
         there = (float(x), float(y), goal.track.at(0.0).position[2])
         across = 0.5 * math.pi * (goal.model.length > goal.model.width)
-        return moving(goal, steady(there, yaw + settings[2] + across, activity="stand")), [*others]
+        goal = moving(goal, steady(there, yaw + settings[2] + across, activity="stand"))
+        if not plan.is_stacked:
+            return goal, [*others]
+        height_m += find_support(goal.model).height
     stacked = []
     for one in others:
         place = (float(x), float(y), height_m + one.foot_m)

@@ -50,6 +50,8 @@ def perform_grip(
     if not (who and things):
         return
     below = _list_near(act, description.relations, copies)
+    is_stacked = any(one.kind == "stack" and one.subject in act.targets
+                     for one in description.claims)  # fmt: skip
     is_left = act.kind in ("move over", "set down", "drop")
     over = next((kind for kind in _OVER if kind in below), "") if is_left else ""
     goal = below.get(over)
@@ -61,6 +63,7 @@ def perform_grip(
             support=None if support is None else cast[support],
             goal=None if goal is None else cast[goal],
             is_turned=description.objects[act.subject].heading_deg is None, is_inside=over != "on",
+            is_stacked=is_stacked and over == "on",
         )  # fmt: skip
 
     machine, handled, put = perform()

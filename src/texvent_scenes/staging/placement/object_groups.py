@@ -262,6 +262,7 @@ def stagger(
     is_lifting = plan.motion.kind in ("rise", "sink") and noun.motion == "fly"
     is_on_ground = noun.habitat == "air" and rests(noun, plan.motion.kind)
     is_deep = is_centred(noun) and noun.name not in HAND_NOUNS and not (is_lifting or is_on_ground)
+    is_deep &= not (noun.habitat == "water" and plan.motion.kind == "jump")  # all out of it
     tall = max(model.height for model in models) if is_deep else 0.0
     columns = count if count <= 3 else math.ceil(math.sqrt(1.6 * count))
     is_row |= is_driven and not (plan.is_path or plan.path)
