@@ -191,7 +191,8 @@ def _name_thing(draft: SceneDraft, group: Group, head: Token) -> list[int]:
     if members:
         return _name_members(draft, group, head, members)
     draft.show(head)
-    is_plain = not group.modifiers and not group.unknown
+    unknown = {one.text for one in group.unknown} - word_set("things", "wholes")
+    is_plain = not group.modifiers and not unknown
     same = [n for n in known if group.is_plural == (draft.things[n]["count"] > 1)]
     if len(known) > len(same):  # "the player", of a player and two defenders
         same = [n for n in same if draft.things[n].get("word", "").endswith(head.text)] or same

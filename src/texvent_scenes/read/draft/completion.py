@@ -282,6 +282,21 @@ def _pass_fixed(draft: SceneDraft) -> None:
             draft.add_move({"kind": "follow" if going else "truck"})
 
 
+_TOWERING_M = 4.0
+"""Height from which on what is fixed does not rise, but stands: "hills rise behind a lake"."""
+
+
+def _stand_tall(draft: SceneDraft) -> None:
+    """Have high things that are fixed stand where a sentence has them rise."""
+    for index, thing in enumerate(draft.things):
+        noun = draft.noun(index)
+        is_open = noun.habitat == "fixed" and [one["kind"] for one in thing["motions"]] == ["rise"]
+        if is_open and not noun.acts:
+            model = noun.build(colour=None, scale=1.0, seed=0)
+            if model.height >= _TOWERING_M:
+                thing["motions"] = []
+
+
 _DECISIONS: tuple[Callable[[SceneDraft], object], ...] = (
     _choose_gender,
     _lead_view,
@@ -303,5 +318,6 @@ _DECISIONS: tuple[Callable[[SceneDraft], object], ...] = (
     _bring_weather,
     _claim_levels,
     _pass_fixed,
+    _stand_tall,
 )
 """Decisions, in their order."""
