@@ -267,7 +267,7 @@ def _pass_fixed(draft: SceneDraft) -> None:
         is_by |= draft.beside(verb, 1).text in word_set("things", "by")
         about = {one.subject for one in claims if one.subject is not None and verb.has("verb")}
         fixed = [n for n in sorted(about) if draft.noun(n).habitat == "fixed"
-                 and not draft.is_light(n)
+                 and not (draft.is_light(n) and (draft.targets([n], ["on"]) or not draft.moves))
                  and not draft.targets([n], ["past"])
                  and {one["kind"] for one in draft.things[n]["motions"]} <= _GOING_BY
                  and not any("speed_m_s" in one for one in draft.things[n]["motions"])]  # fmt: skip
