@@ -142,7 +142,10 @@ def _fill(draft: SceneDraft, vessels: Indices, content: Group, token: Token) -> 
     head, nouns = content.head, [draft.things[one]["noun"] for one in vessels]
     kinds = (("in", "vessels"), ("on", "laden"), ("on", "loaded"))
     bearing = next((kind for kind, one in kinds if word_set("things", one) & {*nouns}), "")
-    if head is not None and names_place(head, ""):
+    is_outer = draft.beside(token, -1).text in word_set("things", "outer")
+    if head is not None and names_place(head, "") and is_outer:
+        draft.mark(head, "lost")  # "the roof of a hospital" is in no ward
+    elif head is not None and names_place(head, ""):
         name_group(draft, content, "in")
     elif head and not head.is_liquid and bearing:
         for index in name_group(draft, content):
@@ -219,6 +222,7 @@ def _add_thing(draft: SceneDraft, group: Group, head: Token) -> int:
         many = trait_value("bodies of a plural", name) or PLURAL_COUNT
         draft.things[index] |= {"count": many, "is_open": not group.is_counted}
     draft.show_inherent(group.unknown, name)
+    draft.claim(head, SEEN, "", [index])  # of a word that the others decide: "bar" as a counter
     say_modifiers(draft, group, index)
     for token in group.unknown if not draft.can_go(index) else ():
         if names_place(token, "") and not token.has("noun"):  # "a kitchen table"
