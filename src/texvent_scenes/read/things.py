@@ -76,8 +76,9 @@ def name_group(
         group = replace(group, head=head)
     if head is not None and (formed := _list_formed(group, head)):
         return [index for one in formed for index in name_group(draft, one, relation, owners)]
-    if go_inside(draft, group, relation, owners):
-        return []
+    outer = [one for one in group.words if one.text in word_set("things", "outer")]
+    if go_inside(draft, group, relation, owners) or (outer and head and head.has("place")):
+        return []  # "on the roof of a hospital": in no ward
     if head is not None and names_place(head, relation) and not is_trajectory(group):
         set_place(draft, group, head, relation)
     elif head is not None and (whole := _find_whole(draft, group)):
@@ -142,10 +143,7 @@ def _fill(draft: SceneDraft, vessels: Indices, content: Group, token: Token) -> 
     head, nouns = content.head, [draft.things[one]["noun"] for one in vessels]
     kinds = (("in", "vessels"), ("on", "laden"), ("on", "loaded"))
     bearing = next((kind for kind, one in kinds if word_set("things", one) & {*nouns}), "")
-    is_outer = draft.beside(token, -1).text in word_set("things", "outer")
-    if head is not None and names_place(head, "") and is_outer:
-        draft.mark(head, "lost")  # "the roof of a hospital" is in no ward
-    elif head is not None and names_place(head, ""):
+    if head is not None and names_place(head, ""):
         name_group(draft, content, "in")
     elif head and not head.is_liquid and bearing:
         for index in name_group(draft, content):
