@@ -131,8 +131,9 @@ _NEUTRAL, _CHROMA = (("black", 22.0), ("dark grey", 42.0), ("grey", 82.0), ("whi
 _HUES = {one: one for one in ("red", "orange", "yellow", "green", "blue", "purple", "pink",
                              "brown", "beige")} | {"cyan": "blue-green"}  # fmt: skip
 """Colour → its basic name."""
-_LIGHTNESS = 0.4
-"""Weight of a difference in lightness between names of hues, beside that in hue and chroma."""
+_LIGHTNESS, _HUE, _DEPTH = 0.5, 40.0, 0.4
+"""Weights of differences in CIE lightness, in hue (per rad) and in chroma between names of hues: a
+dark blue is no blue-green, whatever its chroma."""
 
 
 def name_colour(colour: Sequence[float] | NDArray[np.floating[Any]]) -> str:
@@ -148,7 +149,9 @@ def name_colour(colour: Sequence[float] | NDArray[np.floating[Any]]) -> str:
 
     def distance(name: str) -> float:
         other, *hue = _to_lab(np.asarray(SURFACES[name], np.float64))
-        return math.hypot(_LIGHTNESS * (lightness - other), *np.subtract(chroma, hue))
+        turn = math.remainder(math.atan2(*chroma) - math.atan2(*hue), math.tau)
+        depth = math.hypot(*chroma) - math.hypot(*hue)
+        return math.hypot(_LIGHTNESS * (lightness - other), _HUE * turn, _DEPTH * depth)
 
     return _HUES[min(_HUES, key=distance)]
 

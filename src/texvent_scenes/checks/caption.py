@@ -21,8 +21,15 @@ from texvent_scenes.checks.places import share_of_sky
 from texvent_scenes.checks.staged_clip import StagedClip
 from texvent_scenes.checks.water import wet_share
 from texvent_scenes.colours import name_colour
-from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
-from texvent_scenes.models.nouns import VARIANTS
+from texvent_scenes.models.activities import (
+    ACTIVITIES,
+    ANIMAL_ACTIVITIES,
+    HAND_GESTURES,
+    HAND_NOUNS,
+    PERSON_NOUNS,
+    TRAVELLING,
+)
+from texvent_scenes.models.nouns import AFLOAT, VARIANTS
 from texvent_scenes.models.shapes import bounds, moved
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.raycast.ground_truth import cast_centres
@@ -43,6 +50,8 @@ told; share of a body, of which less is seen than of one that is hidden by half.
 _SUPPORTED_M, _GROUND_M, _APART = 0.06, 0.12, 0.15
 """Gap to the support of a body, and height up to which it is on the ground, m; gap to what carries
 it from which on it is in the air, in its heights."""
+_AFLOAT = 0.15
+"""Height of its lowest point, in its heights, up to which what waves lift is on the water."""
 _CAMERA_M, _ZOOM, _STEEP = 0.03, 1.04, 0.85
 """Way and ratio of focal lengths of a camera that are told; upward part of the sight of one that
 looks straight down or up."""
@@ -57,6 +66,8 @@ _ROLLED_DEG = 3.0
 """Least roll of a camera that is told."""
 _IDLE = ("move", "stand")
 """Activities without a word of their own: the way tells them."""
+_ACTS = ACTIVITIES.keys() | ANIMAL_ACTIVITIES.keys() | HAND_GESTURES.keys() | TRAVELLING
+"""Activities that parts of a body show; of others, as "orbit", the way tells."""
 _PARTS, _THIRD, _WIDE = ("at its left", "in its middle", "at its right"), 1.0 / 6.0, 0.25
 """Parts of the picture; half the width of its middle one, in widths of the picture; share of the
 picture from which on a body is in no part alone."""
@@ -190,7 +201,8 @@ def _tell_acts(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
     """Its activities in their order, and the way that it goes."""
     states = [one.track.at(time_s).activity for time_s in staged.fine_times]
     has_acts = one.noun.name in PERSON_NOUNS | HAND_NOUNS or one.noun.acts
-    acts = [act for act, _ in groupby(states) if has_acts and act not in _IDLE]
+    shown = _ACTS | one.noun.acts
+    acts = [act for act, _ in groupby(states) if has_acts and act in shown and act not in _IDLE]
     facts = [f"acts: {', then '.join(dict.fromkeys(acts))}"] if acts else []
     way = _tell_way(staged, one)
     if way == "stays" and not acts and staged.departure(one).max() > _STIRS * one.size_m:
@@ -254,7 +266,8 @@ def _tell_place_of(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
         return "under the ceiling"
     is_wet = place.has_surface and wet_share(staged.scene, body.middle[at][None, :2]) > 0.0
     ground = "water" if is_wet else "floor" if place.is_room else "ground"
-    if low[2] > _GROUND_M:
+    is_afloat = one.noun.habitat == "water" or one.noun.name in AFLOAT
+    if low[2] > (_AFLOAT * one.model.height if is_wet and is_afloat else _GROUND_M):
         return f"{_round(low[2])} m above the {ground}"
     return f"{'in' if is_wet and low[2] < -_GROUND_M else 'on'} the {ground}"
 

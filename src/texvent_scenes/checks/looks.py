@@ -21,7 +21,7 @@ _REST = Pose(0.0, 0.0, 0.0, "stand")
 _HUES = ("red", "orange", "yellow", "green", "blue", "purple", "pink")
 _COLOURFUL = 2
 """Hues of what is colourful."""
-_HIP_M, _SLENDER, _HIGH_M = 1.0, 1.25, 1.9
+_HIP_M, _SLENDER, _HIGH_M = 1.0, 1.8, 1.9
 """Height of what is low, m; height of what is tall, in its widths, or m."""
 _EVEN, _EGG, _LONG, _FLAT, _MOST, _TINGE = 0.8, 0.65, 2.5, 0.3, 0.5, 0.02
 """Ratio of two extents that are about equal; of those of a ball or an egg; of the longest to the

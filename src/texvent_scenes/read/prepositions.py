@@ -336,9 +336,10 @@ def is_standpoint(draft: SceneDraft, phrase: Phrase, move: Mapping[str, Any] | N
     """
     preposition, kind = phrase.preposition, (move or {}).get("kind")
     leaves = kind in ("pan", "tilt", "zoom") or (move or {}).get("direction") in ("out", "up")
-    is_so = preposition.text.startswith("from") and bool(phrase.groups) and not leaves
     before = draft.beside(preposition, -1)
-    is_view = before.text in word_set("things", "viewed") or before.has("shot")
+    is_mount = before.text in word_set("things", "mounted")  # "mounted on a car"
+    is_so = (preposition.text.startswith("from") or is_mount) and bool(phrase.groups) and not leaves
+    is_view = is_mount or before.text in word_set("things", "viewed") or before.has("shot")
     if not is_so or (move is None and not is_view):
         return False
     heads = heads_of(phrase.groups)

@@ -76,8 +76,9 @@ def name_group(
         group = replace(group, head=head)
     if head is not None and (formed := _list_formed(group, head)):
         return [index for one in formed for index in name_group(draft, one, relation, owners)]
-    if go_inside(draft, group, relation, owners):
-        return []
+    outer = [one for one in group.words if one.text in word_set("things", "outer")]
+    if go_inside(draft, group, relation, owners) or (outer and head and head.has("place")):
+        return []  # "on the roof of a hospital": in no ward
     if head is not None and names_place(head, relation) and not is_trajectory(group):
         set_place(draft, group, head, relation)
     elif head is not None and (whole := _find_whole(draft, group)):
@@ -191,7 +192,8 @@ def _name_thing(draft: SceneDraft, group: Group, head: Token) -> list[int]:
     if members:
         return _name_members(draft, group, head, members)
     draft.show(head)
-    is_plain = not group.modifiers and not group.unknown
+    unknown = {one.text for one in group.unknown} - word_set("things", "wholes")
+    is_plain = not group.modifiers and not unknown
     same = [n for n in known if group.is_plural == (draft.things[n]["count"] > 1)]
     if len(known) > len(same):  # "the player", of a player and two defenders
         same = [n for n in same if draft.things[n].get("word", "").endswith(head.text)] or same
@@ -218,6 +220,7 @@ def _add_thing(draft: SceneDraft, group: Group, head: Token) -> int:
         many = trait_value("bodies of a plural", name) or PLURAL_COUNT
         draft.things[index] |= {"count": many, "is_open": not group.is_counted}
     draft.show_inherent(group.unknown, name)
+    draft.claim(head, SEEN, "", [index])  # of a word that the others decide: "bar" as a counter
     say_modifiers(draft, group, index)
     for token in group.unknown if not draft.can_go(index) else ():
         if names_place(token, "") and not token.has("noun"):  # "a kitchen table"

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from tests.scenes.test_short_prompts import report, staged
 
+from texvent_scenes.models.shapes import bounds
+
 
 @pytest.mark.parametrize(
     ("text", "word", "is_seen"),
@@ -37,6 +39,12 @@ def test_sparks_leave_the_part_of_a_tool_that_goes_round(text):
 
 
 @pytest.mark.parametrize("place", ["kitchen", "garage", "library"])
-def test_a_lamp_that_ends_below_the_ceiling_is_told(place):
-    told = report(f"a person walking in a {place} below a ceiling lamp").not_shown
-    assert "the ceiling lamp hanging from nothing" in told
+def test_a_lamp_in_a_room_has_a_cord_up_to_the_ceiling_that_is_drawn(place):
+    scene, said, _ = staged(f"a person walking in a {place} below a ceiling lamp")
+    (cord, _), ceiling_m = scene.threads[0], scene.environment(0.0).ceiling_m
+    boxes = np.array([bounds([part]) for part in cord.parts])
+    lamp = next(one for one in scene.actors if one.noun.name == "ceiling lamp")
+    assert len(boxes) and ceiling_m < 20.0
+    np.testing.assert_allclose(boxes[:, 1, 2].max(), ceiling_m)
+    assert boxes[:, 0, 2].min() < lamp.corners(0.0)[:, 2].max()
+    assert not any("hanging" in one for one in said.not_shown)

@@ -276,7 +276,7 @@ def _pass_fixed(draft: SceneDraft) -> None:
         is_by |= draft.beside(verb, 1).text in word_set("things", "by")
         about = {one.subject for one in claims if one.subject is not None and verb.has("verb")}
         fixed = [n for n in sorted(about) if draft.noun(n).habitat == "fixed"
-                 and not draft.is_light(n)
+                 and not (draft.is_light(n) and (draft.targets([n], ["on"]) or not draft.moves))
                  and not draft.targets([n], ["past"])
                  and {one["kind"] for one in draft.things[n]["motions"]} <= _GOING_BY
                  and not any("speed_m_s" in one for one in draft.things[n]["motions"])]  # fmt: skip
@@ -289,6 +289,21 @@ def _pass_fixed(draft: SceneDraft) -> None:
         going = [n for n in range(len(draft.things)) if draft.can_go(n) and draft.goes(n)]
         if not any(one["kind"] in ("travel", "follow", "truck") for one in draft.moves):
             draft.add_move({"kind": "follow" if going else "truck"})
+
+
+_TOWERING_M = 4.0
+"""Height from which on what is fixed does not rise, but stands: "hills rise behind a lake"."""
+
+
+def _stand_tall(draft: SceneDraft) -> None:
+    """Have high things that are fixed stand where a sentence has them rise."""
+    for index, thing in enumerate(draft.things):
+        noun = draft.noun(index)
+        is_open = noun.habitat == "fixed" and [one["kind"] for one in thing["motions"]] == ["rise"]
+        if is_open and not noun.acts:
+            model = noun.build(colour=None, scale=1.0, seed=0)
+            if model.height >= _TOWERING_M:
+                thing["motions"] = []
 
 
 _DECISIONS: tuple[Callable[[SceneDraft], object], ...] = (
@@ -313,5 +328,6 @@ _DECISIONS: tuple[Callable[[SceneDraft], object], ...] = (
     _bring_weather,
     _claim_levels,
     _pass_fixed,
+    _stand_tall,
 )
 """Decisions, in their order."""

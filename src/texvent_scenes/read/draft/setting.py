@@ -112,6 +112,9 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
         far = "city" if name == "skyline" else name
         place["backdrops"] = list(dict.fromkeys([*place.get("backdrops", ()), far]))
         draft.show(head)
+    elif is_room(name) and place.get("name") == "indoor":
+        place["name"] = name
+        draft.show(head)
     elif (name == "sky" and is_said) or place.setdefault("name", name) == name or (
         head.is_liquid and place["name"] in word_set("things", "waters")
     ):  # fmt: skip

@@ -232,6 +232,7 @@ def _see_beside(token: Token, tokens: Sequence[Token]) -> Token:
     if "place" in row:
         return replace(token, senses=(Sense("place", row["place"]),))
     sense = replace(senses[0] if senses else NounSense(""), noun=row["noun"])
+    sense = replace(sense, is_kind=sense.is_kind or row.get("is_kind", False))
     sense = replace(
         sense, is_plural=sense.is_plural or token.text in list_plurals(sense.noun or "-")
     )

@@ -149,7 +149,8 @@ def in_hand(
 
     A hand holds what is "with" it.
     """
-    holding = {one.subject for one in relations if one.kind in ACTS and one.kind != "hit"}
+    free = ("hit", "wear")  # who wears a coat has hands for an umbrella
+    holding = {one.subject for one in relations if one.kind in ACTS and one.kind not in free}
     for one in relations:
         thing, who = objects[one.targets[0]].noun, objects[one.subject].noun
         is_in_hand = thing in HAND_NOUNS and who not in PERSON_NOUNS | HAND_NOUNS

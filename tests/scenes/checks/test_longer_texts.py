@@ -1,0 +1,185 @@
+"""Captions of several sentences: who is named again, what a camera passes, what a report tells."""
+
+import numpy as np
+import pytest
+from tests.scenes.staging.test_distances_on_supports import place_by_id
+from tests.scenes.test_short_prompts import report, staged
+
+from texvent.errors import ConfigError
+from texvent_scenes.colours import name_colour
+from texvent_scenes.defaults import complete
+from texvent_scenes.description import to_description
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.read import read
+from texvent_scenes.spec.data import scene_from_data
+from texvent_scenes.spec.scene import Relation, SceneObject
+
+
+def nouns_of(text):
+    return [(one.noun, one.count) for one in read(text, NOUNS).scene.objects]
+
+
+@pytest.mark.parametrize(
+    ("text", "nouns"),
+    [("a red car and a blue car drive, both cars turn left", [("car", 1), ("car", 1)]),
+     ("a man and a woman stand. Both people wave", [("man", 1), ("woman", 1)]),
+     ("a tennis ball and a basketball roll. Both balls stop",
+      [("tennis ball", 1), ("basketball", 1)]),
+     ("a boxer and a referee walk. The two men jump", [("boxer", 1), ("referee", 1)]),
+     ("three dogs run. The three dogs jump", [("dog", 3)]),
+     ("a cat sits. Two dogs sit. The two dogs bark", [("cat", 1), ("dog", 2)]),
+     ("a girl on a mat jumps, the camera shows the whole mat", [("girl", 1), ("rug", 1)]),
+     ("a lighthouse on a cliff, the camera circles the tower", [("lighthouse", 1), ("cliff", 1)]),
+     ("a girl carries a cake, the candles flicker", [("girl", 1), ("cake", 1)])],
+)  # fmt: skip
+def test_what_is_named_again_is_drawn_once(text, nouns):
+    assert nouns_of(text) == nouns
+
+
+@pytest.mark.parametrize("text", ["two balls roll", "a dog and a cat run. Two dogs bark",
+                                  "a car and a bus drive. Both trucks stop"])  # fmt: skip
+def test_what_was_not_named_before_is_new(text):
+    assert nouns_of(text)[-1][1] == 2
+
+
+@pytest.mark.parametrize(
+    ("text", "fixed", "move"),
+    [("trees and houses rush by", ("tree", "house"), "truck"),
+     ("a boy rides a bicycle while trees pass by", ("tree",), "follow"),
+     ("street lamps pass. The shot is taken from a car driving", ("street lamp",), "travel"),
+     ("first-person view of a man walking. Shelves slide past", ("shelf",), "travel")],
+)  # fmt: skip
+def test_a_camera_goes_past_what_is_fixed_which_stays(text, fixed, move):
+    scene = read(text, NOUNS).scene
+    own = [one for one in scene.objects if one.noun in fixed]
+    assert len(own) == len(fixed)
+    assert not any(one.motions for one in own)
+    assert move in [one.kind for one in scene.camera.moves]
+
+
+@pytest.mark.parametrize("text", ["a car passes by", "a chair slides past a table",
+                                  "a bottle slides by on a conveyor belt"])  # fmt: skip
+def test_what_can_go_or_has_a_goal_goes_past_itself(text):
+    objects = read(text, NOUNS).scene.objects
+    assert any(one.motions for one in objects)
+    assert not read(text, NOUNS).scene.camera.moves
+
+
+@pytest.mark.parametrize("text", ["hills rise behind a lake", "skyscrapers rise over a road",
+                                  "a tower rises beside a river"])  # fmt: skip
+def test_high_things_that_rise_stand(text):
+    assert not any(one.kind == "rise" for each in read(text, NOUNS).scene.objects
+                   for one in each.motions)  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("text", "noun"),
+    [("children chase a kite. The camera pans to keep it in the frame", "kite"),
+     ("a dog chases a ball, the camera keeps the ball in view", "ball"),
+     ("a man throws a frisbee, the camera keeping him in the center of the frame", "man")],
+)  # fmt: skip
+def test_what_is_kept_in_the_image_is_followed_and_held(text, noun):
+    reading = read(text, NOUNS)
+    claims = [one for one in reading.claims if one.kind == "in image"]
+    assert {reading.scene.objects[one.subject].noun for one in claims} == {noun}
+    assert len({one.word for one in claims}) == 2
+    assert "follow" in [one.kind for one in reading.scene.camera.moves]
+
+
+@pytest.mark.parametrize(
+    ("text", "kinds"),
+    [("a girl on a swing wugs", ["sit"]), ("a man on a chair wugs", ["sit"]),
+     ("a boy on a horse wugs", ["sit"]), ("a man on a road wugs", ["stand"])],
+)  # fmt: skip
+def test_who_is_on_a_seat_sits_whatever_else_is_said(text, kinds):
+    assert [one.kind for one in read(text, NOUNS).scene.objects[0].motions] == kinds
+
+
+@pytest.mark.parametrize(
+    "text", ["the sky is orange, a car drives", "a dog runs, the walls are orange",
+             "a lamp, the leaves are orange"],
+)  # fmt: skip
+def test_a_colour_after_a_copula_is_no_fruit(text):
+    assert "orange" not in [noun for noun, _ in nouns_of(text)]
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["a dog runs, the camera is mounted on a car",
+     "a man runs, the camera is attached to a bicycle",
+     "a bird flies, the camera is strapped to a drone"],
+)  # fmt: skip
+def test_a_mounted_camera_adds_nothing_that_it_is_on(text):
+    assert len(nouns_of(text)) == 1
+
+
+@pytest.mark.parametrize("noun", ["helicopter", "bird", "man"])
+def test_the_roof_of_a_building_is_in_no_room(noun):
+    assert read(f"a {noun} on the roof of a hospital", NOUNS).scene.place.name is None
+
+
+@pytest.mark.parametrize("act", ["table tennis", "ping pong"])
+def test_a_rally_has_its_own_ball_and_net(act):
+    nouns = {noun for noun, _ in nouns_of(f"two boys play {act}. The ball flies over the net")}
+    assert nouns == {"child", "ping-pong ball", "table tennis table"}
+
+
+@pytest.mark.parametrize(
+    ("text", "is_tall"),
+    [("a tall vase on a table", False), ("a tall cup on a table", False),
+     ("a tall glass on a table", True), ("a tall tree", True), ("a tall building", True)],
+)  # fmt: skip
+def test_tall_is_what_is_slender_or_higher_than_a_person(text, is_tall):
+    assert ("tall" in report(text).shown) == is_tall
+
+
+@pytest.mark.parametrize("who", ["elderly man", "elderly woman", "clown"])
+def test_who_is_told_by_the_head_is_not_shown_without_it(who):
+    said = report(f"a {who} repairs a watch at a workbench, extreme close-up")
+    assert who not in said.shown
+    assert any(one.startswith(f"the {who}: the head") for one in said.not_shown)
+
+
+@pytest.mark.parametrize("text", ["a woman in a red coat stands with an umbrella",
+                                  "a man in a blue jacket walks with a flag",
+                                  "a girl in a hat stands with a bucket"])  # fmt: skip
+def test_who_wears_something_has_hands_for_another_thing(text):
+    scene, said, _ = staged(text)
+    assert not scene.missing
+    assert "with" in said.shown
+
+
+@pytest.mark.parametrize(
+    ("colour", "name"),
+    [((0.02, 0.03, 0.07), "blue"), ((0.09, 0.06, 0.04), "brown"), ((0.02, 0.06, 0.02), "green"),
+     ((0.05, 0.02, 0.08), "purple"), ((0.3, 0.25, 0.15), "beige"), ((0.02, 0.1, 0.1), "blue-green"),
+     ((0.15, 0.02, 0.02), "red"), ((0.55, 0.4, 0.28), "beige")],
+)  # fmt: skip
+def test_a_dark_colour_is_named_by_its_hue(colour, name):
+    assert name_colour(colour) == name
+
+
+def test_a_machine_keeps_its_stated_position_and_things_come_to_it():
+    lift = (Relation("lift", ("cup",)),)
+    arm = SceneObject("robot arm", id="arm", relations=lift, position_m=(1.1, 1.9))
+    on = (Relation("on", ("table",)),)
+    things = (SceneObject("table", id="table"), SceneObject("cup", id="cup", relations=on))
+    placed = place_by_id(arm, *things)
+    np.testing.assert_allclose(placed["arm"].track.at(0.0).position[:2], (1.1, 1.9), atol=0.02)
+    hand = placed["arm"].anchor("hands", 2.0)[:, 3]
+    assert np.linalg.norm(placed["cup"].middle(2.0) - hand) < 0.2
+    borne = SceneObject("robot arm", id="arm", relations=(*lift, *on), position_m=(1.1, 1.9))
+    with pytest.raises(ConfigError, match="position_m is .*what it does is not possible"):
+        place_by_id(borne, *things)
+
+
+@pytest.mark.parametrize("noun", ["suitcase", "trailer", "office chair"])
+def test_what_rolls_on_castors_is_echoed_as_it_is_said(noun):
+    data = {"objects": [{"noun": noun, "motions": [{"kind": "roll", "direction": "left"}]}]}
+    said = complete(to_description(scene_from_data(data)), NOUNS)
+    assert [one.kind for one in said.objects[0].motions] == ["roll"]
+
+
+def test_a_rolling_camera_is_told_to_roll():
+    lines = report("the camera rolls clockwise over a bench").caption
+    assert any("rolls by" in one for one in lines)
