@@ -86,12 +86,21 @@ def test_two_layers_a_frame_at_rest_and_few_vectors_tell_no_motion_of_the_frame(
 
 @pytest.mark.parametrize(
     ("what", "below", "above"),
-    [("share", 0.88, 0.92), ("confirmed", 0.08, 0.12), ("corner", 0.96, 1.04), ("off", 1.1, 0.9)],
+    [
+        ("share", 0.88, 0.92),
+        ("confirmed", 0.08, 0.12),
+        ("off", 1.1, 0.9),
+        ("corner", 0.96, 1.04),
+        ("right", 0.96, 1.04),
+        ("below", 0.96, 1.04),
+    ],
 )
 def test_a_motion_of_the_frame_needs_as_much_as_is_stated(what, below, above):
     rng, found = np.random.default_rng(2), []
     for much in (below, above):
-        flow = move([[much if what == "corner" else 7.0, 0, 0], [0, 0, 0]])
+        ends = {"corner": 1.0, "right": WIDTH / 2, "below": HEIGHT / 2}
+        grows = [much / ends[what] * (what == name) for name in ends] if what in ends else [7, 0, 0]
+        flow = move([grows, [0, 0, 0]])
         if what == "share":
             flow[0, rng.random(flow.shape[1:]) > much] = -20
         if what == "off":
