@@ -25,6 +25,8 @@ def stream(*times):
     st.integers(-3, 3), st.booleans(),
 )  # fmt: skip
 @example(stream(0), "duration_us", 2, 1, -1, True)  # the whole slice reaches the last event
+@example(stream(0, 4), "duration_us", 2, 0, 0, False)  # a slice would begin at the last event
+@example(stream(0, 4), "duration_us", 2, 0, 0, True)
 def test_slices_begin_a_stride_apart_and_the_last_one_may_be_partial(
     events, kind, length, overlap, start, keep_partial
 ):

@@ -7,7 +7,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from tests.examples import examples
 
@@ -78,6 +78,7 @@ def test_time_may_start_at_the_first_event():
 @given(
     parts=st.lists(st.tuples(ROWS, st.integers(0, 40), st.integers(0, 40)), min_size=1, max_size=4)
 )
+@example([([(1, 0, 5, 1), (0, 0, 5, 0)], 1, 1), ([(0, 1, 5, 1), (0, 2, 9, 0)], 1, 1)])  # ties go on
 def test_merging_is_sorting_all_events(parts):
     merged = merge([packets(stream(rows), cuts) for rows, *cuts in parts])
     together = [row for rows, *_ in parts for row in rows]
