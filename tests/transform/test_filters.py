@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.examples import examples
 
 from texvent._registry import FILTERS
 from texvent.errors import ConfigError, InputError
@@ -26,6 +27,7 @@ from .recordings import CUTS, ROWS, SIZE, packets, rows_of, stream
 
 
 @pytest.mark.parametrize("name", FILTERS.names())
+@examples(120)
 @given(rows=ROWS, cuts=CUTS, start=st.sampled_from([0, 10**15, -(10**15)]), data=st.data())
 def test_every_filter_keeps_what_its_rule_says_however_packets_are_cut(
     name, rows, cuts, start, data
