@@ -47,8 +47,10 @@ def test_a_simulated_span_holds_its_events_only(recording):
     assert len(events) > 1000
     assert span.start_us <= events.t[0]
     assert events.t[-1] < span.stop_us
-    late = simulate_span(frames, TimeSpan(410_000, 610_000), TRUTH, offset_us=10_000)
-    assert np.array_equal(late.t, events.t + 10_000)
+    for offset_us in (10_000, -40_000):
+        moved = TimeSpan(*(one + offset_us for one in span))
+        at = simulate_span(frames, moved, TRUTH, offset_us=offset_us)
+        assert np.array_equal(at.t, events.t + offset_us)
     longer = simulate_span(frames, TimeSpan(300_000, 600_000), TRUTH).cut(*span)
     first = [len(one.cut(400_000, 410_000)) for one in (events, longer)]
     assert first[0] == pytest.approx(first[1], rel=0.05)
