@@ -11,7 +11,9 @@ from tests.scenes.read.expected import PROMPTS, grade, say, sentences
 
 from texvent.errors import InputError
 from texvent_scenes import read as reader
+from texvent_scenes.models.activities import ACTIVITIES
 from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.models.people.outfit import list_props
 from texvent_scenes.models.tables import read_table
 from texvent_scenes.read.parsing.lexicon import lexicon_of
 from texvent_scenes.read.parsing.quantities import read_height, read_quantity, read_stated
@@ -181,3 +183,26 @@ def test_those_between_whom_an_act_is_do_it_and_nobody_else(text, doers):
     objects = reader.read(text, NOUNS).scene.objects
     rally = [one for one in objects if any("rally" in each.kind for each in one.motions)]
     assert {one.noun: one.count for one in rally} == doers
+
+
+_SHOWN_TOO = {
+    "vegetables", "soup", "stew", "egg", "page", "plank", "letter", "soap bubble", "beer glass",
+    "omelette", "bread", "towel", "shirt", "dress", "trousers", "uniform", "clothesline", "rug",
+    "flower", "cymbal", "keyboard", "bar", "fruit", "glass",
+}  # fmt: skip
+"""Nouns that shapes of acts show, or whose act tells them: keys of a laptop, clothes on a board."""
+_NO_THINGS = {("take a swing", "swing"), ("shadow box", "box")}
+
+
+def test_words_of_acts_name_nothing_that_is_not_drawn_with_them():
+    lexicon = lexicon_of(None)
+    named = set()
+    for name, act in ACTIVITIES.items():
+        props = list_props(name)
+        drawn = {word for one in props for noun in (*one.nouns, one.name)
+                 for word in (noun, *noun.split())}  # fmt: skip
+        for phrase in act.words if props else ():
+            tokens = split_prompt(" ".join(phrase.split()[1:]), lexicon)
+            nouns = [one.nouns for one in tokens if one.nouns and one.text not in drawn]
+            named |= {(phrase, noun) for own in nouns if not own & drawn for noun in own}
+    assert {one for one in named if one[1] not in _SHOWN_TOO} == _NO_THINGS
