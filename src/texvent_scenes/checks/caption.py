@@ -62,6 +62,8 @@ _MATERIALS = {Texture.STRIPES, Texture.CHECKS, Texture.SPOTS, Texture.TILES, Tex
               Texture.FEATHERS, Texture.CLOTH, Texture.METAL, Texture.RUST, Texture.LEATHER,
               Texture.SCALES, Texture.FOLIAGE, Texture.MIRROR}  # fmt: skip
 """Textures that are named, of a surface of which they are the greater part."""
+_TWO_COLOURED = {Texture.STRIPES, Texture.CHECKS, Texture.SPOTS}
+"""Textures of which both colours are about as large."""
 _ROLLED_DEG = 3.0
 """Least roll of a camera that is told."""
 _IDLE = ("move", "stand")
@@ -153,7 +155,7 @@ def _tell_object(
     surface = sum((surfaces[one.instance] for one in seen if one.instance in surfaces), Counter())
     who = ", ".join(filter(None, [_tell_look(surface), _tell_size(first)]))
     facts = [_tell_acts(staged, first, body), _tell_place_of(staged, first, body)]
-    facts += [_tell_side(staged, first, body), _tell_props(first)]
+    facts += [_tell_side(staged, first, body, views[first.instance]), _tell_props(first)]
     facts += [_tell_visibility(staged, body, views[first.instance])]
     which = ", the largest" if len(seen) > 1 else ""
     return f"{count} ({who}){which}: {'; '.join(filter(None, facts))}"
@@ -170,8 +172,11 @@ def _list_surfaces(staged: StagedClip) -> dict[int, Counter[tuple[str, Texture]]
         for number, count in zip(*seen, strict=True):
             if shapes.mesh is not None and shapes.mesh[number] is not None:
                 continue  # its colours are its own
-            look = name_colour(shapes.colour[number]), Texture(int(shapes.texture[number]))
-            found.setdefault(int(shapes.instance[number]), Counter())[look] += int(count)
+            texture = Texture(int(shapes.texture[number]))
+            own = found.setdefault(int(shapes.instance[number]), Counter())
+            pair = (shapes.colour, shapes.second_colour)[: 1 + (texture in _TWO_COLOURED)]
+            for colours in pair:
+                own[name_colour(colours[number]), texture] += round(int(count) / len(pair))
     return found
 
 
@@ -292,14 +297,17 @@ def _bears(other: BodyBoxes, body: BodyBoxes, at: int) -> bool:
     return bool((is_under & (np.abs(tops - low[2]) <= _SUPPORTED_M)).any()) and low[2] > _GROUND_M
 
 
-def _tell_side(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
-    """Side of a body with a heading that the camera sees at first."""
+def _tell_side(staged: StagedClip, one: Actor, body: BodyBoxes, view: View) -> str:
+    """Side of a body with a heading that the camera sees first of it."""
     if not one.noun.speed_m_s or is_ball(one):
         return ""
-    sight = (body.middle - np.array([staged.scene.camera(t).position for t in staged.times]))[0, :2]
-    if abs(float(staged.scene.camera(0.0).rotation[2][2])) > _STEEP:
+    shown = next((n for n, count in enumerate(view.at) if count), 0)
+    at = round(shown * (len(staged.times) - 1) / max(len(view.at) - 1, 1))
+    camera = staged.scene.camera(staged.times[at])
+    if abs(float(camera.rotation[2][2])) > _STEEP:
         return "seen from above or below"
-    cosine = float(-sight @ body.ahead[0]) / max(float(np.linalg.norm(sight)), 1e-9)
+    sight = (body.middle[at] - camera.position)[:2]
+    cosine = float(-sight @ body.ahead[at]) / max(float(np.linalg.norm(sight)), 1e-9)
     return f"seen {_SIDES[int(np.digitize(cosine, (-0.7, 0.7)))]}"
 
 

@@ -139,9 +139,20 @@ def _see_as_verb(token: Token, tokens: Sequence[Token]) -> Token:
     is_verb |= bool(forms) and _goes_on(token, tokens)
     is_led = after.text in word_set("things", "particles") and (then.is_sign or then.text == "and")
     is_verb |= True in forms and is_led and not before.has("articles", "field", "relation")
+    is_verb |= True in forms and bool(token.verbs("s")) and _is_after_subject(token, tokens)
     is_agreed = before.is_unknown and is_plural_form(before.text) and not after.has("noun")
     is_verb |= forms == {False} and bool(token.verbs("base")) and is_agreed  # "shadows slide"
     return replace(token, senses=token.all("verb")) if is_verb else token
+
+
+def _is_after_subject(token: Token, tokens: Sequence[Token]) -> bool:
+    """Whether only an article and a singular are before it in its clause: "the net swings"."""
+    after, before, article, first = (token_at(tokens, token.at + n) for n in (1, -1, -2, -3))
+    is_begun = first.at < 0 or first.is_sign or first.has("conjunctions")
+    is_begun |= token.at == 2
+    is_ended = after.is_sign or after.text == "and" or after.has("adverb") or after is NO_TOKEN
+    is_one = not (before.has("field") or is_plural_form(before.text) or before.is_sign)
+    return is_begun and article.has("articles") and is_one and is_ended
 
 
 def _goes_on(token: Token, tokens: Sequence[Token]) -> bool:
