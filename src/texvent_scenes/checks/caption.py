@@ -11,6 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent.camera import PosedCamera
 from texvent.sensor import SensorSize
@@ -167,16 +168,28 @@ def _list_surfaces(staged: StagedClip) -> dict[int, Counter[tuple[str, Texture]]
     found: dict[int, Counter[tuple[str, Texture]]] = {}
     for time_s in staged.times[:: len(staged.times) // 2]:
         world, shapes = world_and_shapes(staged.scene, time_s, size, shadows=False)
+        held = _list_props(staged, shapes.instance, time_s)
         numbers = cast_centres(world, size).number
         seen = np.unique(numbers[numbers >= 0], return_counts=True)
         for number, count in zip(*seen, strict=True):
             if shapes.mesh is not None and shapes.mesh[number] is not None:
                 continue  # its colours are its own
+            if number in held:
+                continue  # a piano is no part of who plays it
             texture = Texture(int(shapes.texture[number]))
             own = found.setdefault(int(shapes.instance[number]), Counter())
             pair = (shapes.colour, shapes.second_colour)[: 1 + (texture in _TWO_COLOURED)]
             for colours in pair:
                 own[name_colour(colours[number]), texture] += round(int(count) / len(pair))
+    return found
+
+
+def _list_props(staged: StagedClip, instances: NDArray[np.int32], time_s: float) -> set[int]:
+    """Numbers of the shapes that are props of an activity, which follow those of the body."""
+    found = set[int]()
+    for one in (one for one in staged.scene.actors if one.props):
+        own = np.flatnonzero(instances == one.instance)
+        found |= {*map(int, own[len(one.model.parts(one.pose(time_s))) :])}
     return found
 
 
@@ -250,7 +263,8 @@ def _tell_place_of(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
     if one.track.anchor is not None:
         carriers = [other for other in staged.scene.actors
                     if other.track is one.track.anchor.carrier]  # fmt: skip
-        if carriers:
+        on_ground = one.corners(staged.times[at])[:, 2].min() <= _GROUND_M
+        if carriers and not (on_ground and carriers[0].noun.name in PERSON_NOUNS):
             noun = _plain(carriers[0].noun.name)
             gap_m = _gap_between(one, carriers[0], staged.times[at])
             is_apart = gap_m > _APART * one.model.height
@@ -264,6 +278,8 @@ def _tell_place_of(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
         for other in copies:
             if index != one.object_index and _bears(other, body, at):
                 return f"on the {_plain(staged.description.objects[index].noun)}"
+    if inside := _find_holder(staged, one, body, at):
+        return inside
     place = staged.scene.place
     if place.ground in (Ground.NONE, Ground.UNDERWATER):
         return ""
@@ -275,6 +291,19 @@ def _tell_place_of(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
     if low[2] > (_AFLOAT * one.model.height if is_wet and is_afloat else _GROUND_M):
         return f"{_round(low[2])} m above the {ground}"
     return f"{'in' if is_wet and low[2] < -_GROUND_M else 'on'} the {ground}"
+
+
+def _find_holder(staged: StagedClip, one: Actor, body: BodyBoxes, at: int) -> str:
+    """What it is said to be in or on, if its middle is over or in that: an armchair."""
+    for each in staged.description.relations:
+        if each.subject == one.object_index and each.kind in ("in", "on"):
+            for other in (other for n in each.targets for other in staged.boxes[n]):
+                off = np.abs(body.middle[at] - other.middle[at])[:2] <= 0.5 * other.size[at, :2]
+                low = body.middle[at, 2] - 0.5 * body.size[at, 2]
+                if off.all() and low < other.middle[at, 2] + 0.5 * other.size[at, 2]:
+                    noun = _plain(staged.description.objects[each.targets[0]].noun)
+                    return f"{each.kind} the {noun}"
+    return ""
 
 
 def _gap_between(one: Actor, other: Actor, time_s: float) -> float:

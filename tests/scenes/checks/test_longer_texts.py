@@ -29,8 +29,7 @@ def nouns_of(text):
      ("three dogs run. The three dogs jump", [("dog", 3)]),
      ("a cat sits. Two dogs sit. The two dogs bark", [("cat", 1), ("dog", 2)]),
      ("a girl on a mat jumps, the camera shows the whole mat", [("girl", 1), ("rug", 1)]),
-     ("a lighthouse on a cliff, the camera circles the tower", [("lighthouse", 1), ("cliff", 1)]),
-     ("a girl carries a cake, the candles flicker", [("girl", 1), ("cake", 1)])],
+     ("a lighthouse on a cliff, the camera circles the tower", [("lighthouse", 1), ("cliff", 1)])],
 )  # fmt: skip
 def test_what_is_named_again_is_drawn_once(text, nouns):
     assert nouns_of(text) == nouns

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
@@ -39,7 +40,7 @@ def choose_senses(tokens: Sequence[Token], nouns: Mapping[str, Noun]) -> list[To
     tokens = [_see_as_young(_see_as_move(one, tokens), tokens) for one in _drop_similes(tokens)]
     tokens = [_see_as_operator(_see_as_showing(one, tokens), tokens) for one in tokens]
     tokens = [replace(one, senses=()) if _is_of_light(one, tokens) or _is_state(one, tokens)
-              else one for one in tokens]  # fmt: skip
+              or _is_depicted(one, tokens) else one for one in tokens]  # fmt: skip
     named = [_see_as_mass(_see_as_verb(one, tokens), tokens) for one in tokens]
     related = [_relate(one, tokens) for one in named]
     chosen = [_choose(one, related, nouns) if not one.senses else one for one in related]
@@ -111,6 +112,14 @@ def _is_state(token: Token, tokens: Sequence[Token]) -> bool:
     after = token_at(tokens, token.at + 1)
     true_of = word_table("inherent").get(token.text, ())
     return token.has("verb") and bool(after.nouns & {*true_of})
+
+
+def _is_depicted(token: Token, tokens: Sequence[Token]) -> bool:
+    """Whether a noun names what somebody draws, which is a picture: "sketches a horse"."""
+    led = [*reversed(tokens[max(token.at - _NEAR, 0) : token.at])]
+    own = [*itertools.takewhile(lambda one: one.has("articles", "field"), led)]
+    verb = led[len(own)].text if len(own) < len(led) else ""
+    return token.has("noun") and verb in word_set("things", "depicting") and bool(own)
 
 
 def _is_of_light(token: Token, tokens: Sequence[Token]) -> bool:
