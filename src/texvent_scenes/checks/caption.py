@@ -11,17 +11,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby
 
 import numpy as np
-from numpy.typing import NDArray
 
 from texvent.camera import PosedCamera
-from texvent.sensor import SensorSize
 from texvent_scenes.checks.body_boxes import BodyBoxes
 from texvent_scenes.checks.in_view import View
 from texvent_scenes.checks.looks import is_ball
 from texvent_scenes.checks.places import share_of_sky
 from texvent_scenes.checks.staged_clip import StagedClip
+from texvent_scenes.checks.surfaces import join_words, list_surfaces, tell_look
 from texvent_scenes.checks.water import wet_share
-from texvent_scenes.colours import name_colour
 from texvent_scenes.models.activities import (
     ACTIVITIES,
     ANIMAL_ACTIVITIES,
@@ -33,16 +31,11 @@ from texvent_scenes.models.activities import (
 from texvent_scenes.models.nouns import AFLOAT, VARIANTS
 from texvent_scenes.models.shapes import bounds, moved
 from texvent_scenes.models.tables import nouns_with
-from texvent_scenes.raycast.ground_truth import cast_centres
-from texvent_scenes.raycast.render import world_and_shapes
 from texvent_scenes.rendered_scene import Ground, Texture
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.surroundings.lighting import DARK
 from texvent_scenes.words import list_plurals
 
-_WIDTH, _MUCH, _MOST_COLOURS = 120, 0.15, 3
-"""Width of the small pictures in which surfaces are counted, pixels; share of a surface from which
-on a colour is named; most that are."""
 _LEAST_SHARE, _MOST_SCENERY = 0.004, 4
 """Share of the image of a piece of scenery that is named; most nouns that are."""
 _STAYS, _STIRS, _TURNS, _HALF = 0.05, 0.01, math.radians(4.0), 0.6
@@ -56,15 +49,6 @@ _AFLOAT = 0.15
 _CAMERA_M, _ZOOM, _STEEP = 0.03, 1.04, 0.85
 """Way and ratio of focal lengths of a camera that are told; upward part of the sight of one that
 looks straight down or up."""
-_NEUTRAL = {"black", "dark grey", "grey", "white"}
-"""Names of colours without a hue."""
-_MATERIALS = {Texture.STRIPES, Texture.CHECKS, Texture.SPOTS, Texture.TILES, Texture.BOARDS,
-              Texture.STONE, Texture.CONCRETE, Texture.BRICK, Texture.WOOD, Texture.FUR,
-              Texture.FEATHERS, Texture.CLOTH, Texture.METAL, Texture.RUST, Texture.LEATHER,
-              Texture.SCALES, Texture.FOLIAGE, Texture.MIRROR}  # fmt: skip
-"""Textures that are named, of a surface of which they are the greater part."""
-_TWO_COLOURED = {Texture.STRIPES, Texture.CHECKS, Texture.SPOTS}
-"""Textures of which both colours are about as large."""
 _ROLLED_DEG = 3.0
 """Least roll of a camera that is told."""
 _IDLE = ("move", "stand")
@@ -84,7 +68,7 @@ def caption(staged: StagedClip, views: Mapping[int, View]) -> tuple[str, ...]:
         staged: the clip.
         views: instance id → the most that is seen of it.
     """
-    surfaces = _list_surfaces(staged)
+    surfaces = list_surfaces(staged)
     bodies = [line for index in range(len(staged.description.objects))
               if (line := _tell_object(staged, index, views, surfaces))]  # fmt: skip
     return (_tell_place(staged), *bodies, _tell_camera(staged))
@@ -104,7 +88,7 @@ def _tell_place(staged: StagedClip) -> str:
     facts += ["clouds"] if said.place.clouds and kind not in DARK else []
     facts += ["wet ground"] if scene.environment(0.0).wetness else []
     if seen := _list_scenery(staged):
-        facts.append(f"with {_join(seen)}")
+        facts.append(f"with {join_words(seen)}")
     if not scene.place.is_room and scene.place.ground is not Ground.UNDERWATER:
         times = staged.times[:: len(staged.times) // 2]
         share = max(share_of_sky(scene, one, scene.camera(one)) for one in times)
@@ -154,59 +138,12 @@ def _tell_object(
     body = staged.boxes[index][own.index(first)]
     count = f"{len(seen)} {list_plurals(noun)[0]}" if len(seen) > 1 else noun
     surface = sum((surfaces[one.instance] for one in seen if one.instance in surfaces), Counter())
-    who = ", ".join(filter(None, [_tell_look(surface), _tell_size(first)]))
+    who = ", ".join(filter(None, [tell_look(surface), _tell_size(first)]))
     facts = [_tell_acts(staged, first, body), _tell_place_of(staged, first, body)]
     facts += [_tell_side(staged, first, body, views[first.instance]), _tell_props(first)]
     facts += [_tell_visibility(staged, body, views[first.instance])]
     which = ", the largest" if len(seen) > 1 else ""
     return f"{count} ({who}){which}: {'; '.join(filter(None, facts))}"
-
-
-def _list_surfaces(staged: StagedClip) -> dict[int, Counter[tuple[str, Texture]]]:
-    """Instance id → colour and texture of its surface, counted over points of small pictures."""
-    size = SensorSize(_WIDTH, max(round(_WIDTH * staged.size.height / staged.size.width), 1))
-    found: dict[int, Counter[tuple[str, Texture]]] = {}
-    for time_s in staged.times[:: len(staged.times) // 2]:
-        world, shapes = world_and_shapes(staged.scene, time_s, size, shadows=False)
-        held = _list_props(staged, shapes.instance, time_s)
-        numbers = cast_centres(world, size).number
-        seen = np.unique(numbers[numbers >= 0], return_counts=True)
-        for number, count in zip(*seen, strict=True):
-            if shapes.mesh is not None and shapes.mesh[number] is not None:
-                continue  # its colours are its own
-            if number in held:
-                continue  # a piano is no part of who plays it
-            texture = Texture(int(shapes.texture[number]))
-            own = found.setdefault(int(shapes.instance[number]), Counter())
-            pair = (shapes.colour, shapes.second_colour)[: 1 + (texture in _TWO_COLOURED)]
-            for colours in pair:
-                own[name_colour(colours[number]), texture] += round(int(count) / len(pair))
-    return found
-
-
-def _list_props(staged: StagedClip, instances: NDArray[np.int32], time_s: float) -> set[int]:
-    """Numbers of the shapes that are props of an activity, which follow those of the body."""
-    found = set[int]()
-    for one in (one for one in staged.scene.actors if one.props):
-        own = np.flatnonzero(instances == one.instance)
-        found |= {*map(int, own[len(one.model.parts(one.pose(time_s))) :])}
-    return found
-
-
-def _tell_look(surface: Counter[tuple[str, Texture]]) -> str:
-    """Colours of most of a surface, the usual one first, and a texture of the greater part."""
-    colours, textures = Counter[str](), Counter[Texture]()
-    for (colour, texture), count in surface.items():
-        colours[colour] += count
-        textures[texture] += count
-    (first, _), *others = colours.most_common(_MOST_COLOURS) or [("", 0)]
-    named = [first, *(name for name, count in others if count >= _MUCH * colours.total())]
-    hues = [name for name, _ in colours.most_common() if name not in _NEUTRAL]
-    if hues and not {*named} - _NEUTRAL and colours[hues[0]] >= _MUCH * colours.total():
-        named[-1] = hues[0]  # three greys hide no green
-    mostly = [one.name.lower() for one, count in textures.items()
-              if one in _MATERIALS and count >= _HALF * textures.total()]  # fmt: skip
-    return ", ".join(filter(None, [_join(named), *mostly]))
 
 
 def _tell_size(one: Actor) -> str:
@@ -254,7 +191,7 @@ def _tell_way(staged: StagedClip, one: Actor) -> str:
     ways = [(abs(way), f"{_round(abs(way))} m {name[int(way > 0)]}")
             for way, name in zip(axes @ net, names, strict=True)]  # fmt: skip
     least = 0.3 * max(length for length, _ in ways)
-    return f"goes {_join([words for length, words in ways if length >= least])} at {speed} m/s"
+    return f"goes {join_words([words for length, words in ways if length >= least])} at {speed} m/s"
 
 
 def _tell_place_of(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
@@ -343,7 +280,7 @@ def _tell_side(staged: StagedClip, one: Actor, body: BodyBoxes, view: View) -> s
 def _tell_props(one: Actor) -> str:
     """Things in its hands."""
     props = [prop.nouns[0] for prop in one.props if prop.nouns]
-    return f"with a {_join(props)}" if props else ""
+    return f"with a {join_words(props)}" if props else ""
 
 
 def _tell_visibility(staged: StagedClip, body: BodyBoxes, view: View) -> str:
@@ -374,7 +311,7 @@ def _tell_camera(staged: StagedClip) -> str:
     roll = math.degrees(_roll_of(first))
     facts += [f"rolled by {abs(roll):.0f}°"] if abs(roll) >= _ROLLED_DEG else []
     moves = [*_list_camera_moves(cameras), *_list_zooms(first, last)]
-    return f"camera: {', '.join(facts)}, {_join(moves) if moves else 'stays'}"
+    return f"camera: {', '.join(facts)}, {join_words(moves) if moves else 'stays'}"
 
 
 def _roll_of(camera: PosedCamera) -> float:
@@ -414,9 +351,3 @@ def _list_zooms(first: PosedCamera, last: PosedCamera) -> Iterator[str]:
 def _round(value: float) -> str:
     """Two digits, or all before the point."""
     return f"{value:.2g}" if abs(value) < 99.5 else f"{value:.0f}"
-
-
-def _join(words: Sequence[str]) -> str:
-    """Words with commas, and "and" before the last."""
-    *most, last = words
-    return f"{', '.join(most)} and {last}" if most else last
