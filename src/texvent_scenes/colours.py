@@ -129,7 +129,8 @@ def rgb_of(name: str | None, palette: str = "surface") -> Colour | None:
 _NEUTRAL, _CHROMA = (("black", 22.0), ("dark grey", 42.0), ("grey", 82.0), ("white", 101.0)), 9.0
 """Neutral colours with the CIE lightness up to which they are meant; chroma of the others."""
 _HUES = {one: one for one in ("red", "orange", "yellow", "green", "blue", "purple", "pink",
-                             "brown", "beige")} | {"cyan": "blue-green"}  # fmt: skip
+                             "brown", "beige")}  # fmt: skip
+_HUES |= {"cyan": "blue-green", "tan": "beige"}
 """Colour → its basic name."""
 _LIGHTNESS, _HUE, _DEPTH = 0.5, 40.0, 0.4
 """Weights of differences in CIE lightness, in hue (per rad) and in chroma between names of hues: a

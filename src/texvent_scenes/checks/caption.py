@@ -13,14 +13,13 @@ from itertools import groupby
 import numpy as np
 
 from texvent.camera import PosedCamera
-from texvent.sensor import SensorSize
 from texvent_scenes.checks.body_boxes import BodyBoxes
 from texvent_scenes.checks.in_view import View
 from texvent_scenes.checks.looks import is_ball
 from texvent_scenes.checks.places import share_of_sky
 from texvent_scenes.checks.staged_clip import StagedClip
+from texvent_scenes.checks.surfaces import join_words, list_surfaces, tell_look
 from texvent_scenes.checks.water import wet_share
-from texvent_scenes.colours import name_colour
 from texvent_scenes.models.activities import (
     ACTIVITIES,
     ANIMAL_ACTIVITIES,
@@ -32,16 +31,11 @@ from texvent_scenes.models.activities import (
 from texvent_scenes.models.nouns import AFLOAT, VARIANTS
 from texvent_scenes.models.shapes import bounds, moved
 from texvent_scenes.models.tables import nouns_with
-from texvent_scenes.raycast.ground_truth import cast_centres
-from texvent_scenes.raycast.render import world_and_shapes
 from texvent_scenes.rendered_scene import Ground, Texture
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.surroundings.lighting import DARK
 from texvent_scenes.words import list_plurals
 
-_WIDTH, _MUCH, _MOST_COLOURS = 120, 0.15, 3
-"""Width of the small pictures in which surfaces are counted, pixels; share of a surface from which
-on a colour is named; most that are."""
 _LEAST_SHARE, _MOST_SCENERY = 0.004, 4
 """Share of the image of a piece of scenery that is named; most nouns that are."""
 _STAYS, _STIRS, _TURNS, _HALF = 0.05, 0.01, math.radians(4.0), 0.6
@@ -55,13 +49,6 @@ _AFLOAT = 0.15
 _CAMERA_M, _ZOOM, _STEEP = 0.03, 1.04, 0.85
 """Way and ratio of focal lengths of a camera that are told; upward part of the sight of one that
 looks straight down or up."""
-_NEUTRAL = {"black", "dark grey", "grey", "white"}
-"""Names of colours without a hue."""
-_MATERIALS = {Texture.STRIPES, Texture.CHECKS, Texture.SPOTS, Texture.TILES, Texture.BOARDS,
-              Texture.STONE, Texture.CONCRETE, Texture.BRICK, Texture.WOOD, Texture.FUR,
-              Texture.FEATHERS, Texture.CLOTH, Texture.METAL, Texture.RUST, Texture.LEATHER,
-              Texture.SCALES, Texture.FOLIAGE, Texture.MIRROR}  # fmt: skip
-"""Textures that are named, of a surface of which they are the greater part."""
 _ROLLED_DEG = 3.0
 """Least roll of a camera that is told."""
 _IDLE = ("move", "stand")
@@ -81,7 +68,7 @@ def caption(staged: StagedClip, views: Mapping[int, View]) -> tuple[str, ...]:
         staged: the clip.
         views: instance id → the most that is seen of it.
     """
-    surfaces = _list_surfaces(staged)
+    surfaces = list_surfaces(staged)
     bodies = [line for index in range(len(staged.description.objects))
               if (line := _tell_object(staged, index, views, surfaces))]  # fmt: skip
     return (_tell_place(staged), *bodies, _tell_camera(staged))
@@ -101,7 +88,7 @@ def _tell_place(staged: StagedClip) -> str:
     facts += ["clouds"] if said.place.clouds and kind not in DARK else []
     facts += ["wet ground"] if scene.environment(0.0).wetness else []
     if seen := _list_scenery(staged):
-        facts.append(f"with {_join(seen)}")
+        facts.append(f"with {join_words(seen)}")
     if not scene.place.is_room and scene.place.ground is not Ground.UNDERWATER:
         times = staged.times[:: len(staged.times) // 2]
         share = max(share_of_sky(scene, one, scene.camera(one)) for one in times)
@@ -151,44 +138,12 @@ def _tell_object(
     body = staged.boxes[index][own.index(first)]
     count = f"{len(seen)} {list_plurals(noun)[0]}" if len(seen) > 1 else noun
     surface = sum((surfaces[one.instance] for one in seen if one.instance in surfaces), Counter())
-    who = ", ".join(filter(None, [_tell_look(surface), _tell_size(first)]))
+    who = ", ".join(filter(None, [tell_look(surface), _tell_size(first)]))
     facts = [_tell_acts(staged, first, body), _tell_place_of(staged, first, body)]
-    facts += [_tell_side(staged, first, body), _tell_props(first)]
+    facts += [_tell_side(staged, first, body, views[first.instance]), _tell_props(first)]
     facts += [_tell_visibility(staged, body, views[first.instance])]
     which = ", the largest" if len(seen) > 1 else ""
     return f"{count} ({who}){which}: {'; '.join(filter(None, facts))}"
-
-
-def _list_surfaces(staged: StagedClip) -> dict[int, Counter[tuple[str, Texture]]]:
-    """Instance id → colour and texture of its surface, counted over points of small pictures."""
-    size = SensorSize(_WIDTH, max(round(_WIDTH * staged.size.height / staged.size.width), 1))
-    found: dict[int, Counter[tuple[str, Texture]]] = {}
-    for time_s in staged.times[:: len(staged.times) // 2]:
-        world, shapes = world_and_shapes(staged.scene, time_s, size, shadows=False)
-        numbers = cast_centres(world, size).number
-        seen = np.unique(numbers[numbers >= 0], return_counts=True)
-        for number, count in zip(*seen, strict=True):
-            if shapes.mesh is not None and shapes.mesh[number] is not None:
-                continue  # its colours are its own
-            look = name_colour(shapes.colour[number]), Texture(int(shapes.texture[number]))
-            found.setdefault(int(shapes.instance[number]), Counter())[look] += int(count)
-    return found
-
-
-def _tell_look(surface: Counter[tuple[str, Texture]]) -> str:
-    """Colours of most of a surface, the usual one first, and a texture of the greater part."""
-    colours, textures = Counter[str](), Counter[Texture]()
-    for (colour, texture), count in surface.items():
-        colours[colour] += count
-        textures[texture] += count
-    (first, _), *others = colours.most_common(_MOST_COLOURS) or [("", 0)]
-    named = [first, *(name for name, count in others if count >= _MUCH * colours.total())]
-    hues = [name for name, _ in colours.most_common() if name not in _NEUTRAL]
-    if hues and not {*named} - _NEUTRAL and colours[hues[0]] >= _MUCH * colours.total():
-        named[-1] = hues[0]  # three greys hide no green
-    mostly = [one.name.lower() for one, count in textures.items()
-              if one in _MATERIALS and count >= _HALF * textures.total()]  # fmt: skip
-    return ", ".join(filter(None, [_join(named), *mostly]))
 
 
 def _tell_size(one: Actor) -> str:
@@ -236,7 +191,7 @@ def _tell_way(staged: StagedClip, one: Actor) -> str:
     ways = [(abs(way), f"{_round(abs(way))} m {name[int(way > 0)]}")
             for way, name in zip(axes @ net, names, strict=True)]  # fmt: skip
     least = 0.3 * max(length for length, _ in ways)
-    return f"goes {_join([words for length, words in ways if length >= least])} at {speed} m/s"
+    return f"goes {join_words([words for length, words in ways if length >= least])} at {speed} m/s"
 
 
 def _tell_place_of(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
@@ -245,7 +200,8 @@ def _tell_place_of(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
     if one.track.anchor is not None:
         carriers = [other for other in staged.scene.actors
                     if other.track is one.track.anchor.carrier]  # fmt: skip
-        if carriers:
+        on_ground = one.corners(staged.times[at])[:, 2].min() <= _GROUND_M
+        if carriers and not (on_ground and carriers[0].noun.name in PERSON_NOUNS):
             noun = _plain(carriers[0].noun.name)
             gap_m = _gap_between(one, carriers[0], staged.times[at])
             is_apart = gap_m > _APART * one.model.height
@@ -259,6 +215,8 @@ def _tell_place_of(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
         for other in copies:
             if index != one.object_index and _bears(other, body, at):
                 return f"on the {_plain(staged.description.objects[index].noun)}"
+    if inside := _find_holder(staged, one, body, at):
+        return inside
     place = staged.scene.place
     if place.ground in (Ground.NONE, Ground.UNDERWATER):
         return ""
@@ -270,6 +228,19 @@ def _tell_place_of(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
     if low[2] > (_AFLOAT * one.model.height if is_wet and is_afloat else _GROUND_M):
         return f"{_round(low[2])} m above the {ground}"
     return f"{'in' if is_wet and low[2] < -_GROUND_M else 'on'} the {ground}"
+
+
+def _find_holder(staged: StagedClip, one: Actor, body: BodyBoxes, at: int) -> str:
+    """What it is said to be in or on, if its middle is over or in that: an armchair."""
+    for each in staged.description.relations:
+        if each.subject == one.object_index and each.kind in ("in", "on"):
+            for other in (other for n in each.targets for other in staged.boxes[n]):
+                off = np.abs(body.middle[at] - other.middle[at])[:2] <= 0.5 * other.size[at, :2]
+                low = body.middle[at, 2] - 0.5 * body.size[at, 2]
+                if off.all() and low < other.middle[at, 2] + 0.5 * other.size[at, 2]:
+                    noun = _plain(staged.description.objects[each.targets[0]].noun)
+                    return f"{each.kind} the {noun}"
+    return ""
 
 
 def _gap_between(one: Actor, other: Actor, time_s: float) -> float:
@@ -292,21 +263,24 @@ def _bears(other: BodyBoxes, body: BodyBoxes, at: int) -> bool:
     return bool((is_under & (np.abs(tops - low[2]) <= _SUPPORTED_M)).any()) and low[2] > _GROUND_M
 
 
-def _tell_side(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
-    """Side of a body with a heading that the camera sees at first."""
+def _tell_side(staged: StagedClip, one: Actor, body: BodyBoxes, view: View) -> str:
+    """Side of a body with a heading that the camera sees first of it."""
     if not one.noun.speed_m_s or is_ball(one):
         return ""
-    sight = (body.middle - np.array([staged.scene.camera(t).position for t in staged.times]))[0, :2]
-    if abs(float(staged.scene.camera(0.0).rotation[2][2])) > _STEEP:
+    shown = next((n for n, count in enumerate(view.at) if count), 0)
+    at = round(shown * (len(staged.times) - 1) / max(len(view.at) - 1, 1))
+    camera = staged.scene.camera(staged.times[at])
+    if abs(float(camera.rotation[2][2])) > _STEEP:
         return "seen from above or below"
-    cosine = float(-sight @ body.ahead[0]) / max(float(np.linalg.norm(sight)), 1e-9)
+    sight = (body.middle[at] - camera.position)[:2]
+    cosine = float(-sight @ body.ahead[at]) / max(float(np.linalg.norm(sight)), 1e-9)
     return f"seen {_SIDES[int(np.digitize(cosine, (-0.7, 0.7)))]}"
 
 
 def _tell_props(one: Actor) -> str:
     """Things in its hands."""
     props = [prop.nouns[0] for prop in one.props if prop.nouns]
-    return f"with a {_join(props)}" if props else ""
+    return f"with a {join_words(props)}" if props else ""
 
 
 def _tell_visibility(staged: StagedClip, body: BodyBoxes, view: View) -> str:
@@ -337,7 +311,7 @@ def _tell_camera(staged: StagedClip) -> str:
     roll = math.degrees(_roll_of(first))
     facts += [f"rolled by {abs(roll):.0f}°"] if abs(roll) >= _ROLLED_DEG else []
     moves = [*_list_camera_moves(cameras), *_list_zooms(first, last)]
-    return f"camera: {', '.join(facts)}, {_join(moves) if moves else 'stays'}"
+    return f"camera: {', '.join(facts)}, {join_words(moves) if moves else 'stays'}"
 
 
 def _roll_of(camera: PosedCamera) -> float:
@@ -377,9 +351,3 @@ def _list_zooms(first: PosedCamera, last: PosedCamera) -> Iterator[str]:
 def _round(value: float) -> str:
     """Two digits, or all before the point."""
     return f"{value:.2g}" if abs(value) < 99.5 else f"{value:.0f}"
-
-
-def _join(words: Sequence[str]) -> str:
-    """Words with commas, and "and" before the last."""
-    *most, last = words
-    return f"{', '.join(most)} and {last}" if most else last

@@ -58,6 +58,9 @@ def find_unlike(
             if one.noun.name in PERSON_NOUNS or one.object_index in ridden
             for part in one.own_parts(_REST)
         ]  # fmt: skip
+        other = next((prop.nouns[0] for prop in props if prop.nouns[0] != thing.noun), "")
+        if other and not bodies:
+            yield Violation("noun", thing.noun, f"the {thing.noun}: a {other} is drawn")
         rgb = find_colour(thing.colour, SURFACES) if thing.colour else None
         drawn = bodies or [[part] for part in parts]
         is_so = all if bodies else any

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from texvent_scenes.description import SEEN
 from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.draft.abilities import Indices
@@ -124,6 +125,7 @@ def _say_of_part(draft: SceneDraft, word: Token, part: str, owners: Indices) -> 
     elif word.text != part and not (fields.keys() & {"count"} or word.has("articles")):
         return  # "with shiny blades"
     draft.show(word)
+    draft.claim(word, SEEN, "", owners)
     claim_fine(draft, word, owners)
     claim_lamps(draft, word, owners)
 

@@ -338,6 +338,8 @@ def is_standpoint(draft: SceneDraft, phrase: Phrase, move: Mapping[str, Any] | N
     leaves = kind in ("pan", "tilt", "zoom") or (move or {}).get("direction") in ("out", "up")
     before = draft.beside(preposition, -1)
     is_mount = before.text in word_set("things", "mounted")  # "mounted on a car"
+    is_mount |= before.text in ("is", "sits") and draft.beside(before, -1).has("camera")
+    is_mount &= preposition.text in ("on", "in", "to", "onto", "inside", "aboard")
     is_so = (preposition.text.startswith("from") or is_mount) and bool(phrase.groups) and not leaves
     is_view = is_mount or before.text in word_set("things", "viewed") or before.has("shot")
     if not is_so or (move is None and not is_view):

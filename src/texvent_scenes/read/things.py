@@ -83,6 +83,7 @@ def name_group(
         set_place(draft, group, head, relation)
     elif head is not None and (whole := _find_whole(draft, group)):
         found = name_group(draft, whole, relation, owners)
+        draft.claim(head, SEEN, "", found)
         return found if relation else []  # what a part does, the whole does not
     elif head is not None and head.has("noun", "pose"):
         found = _pose_again(draft, group, head) or _find_all_of(draft, group, head)
@@ -183,6 +184,7 @@ def _name_thing(draft: SceneDraft, group: Group, head: Token) -> list[int]:
     if group.article in owners | {"the", ""} and having:
         draft.show(head)
         claim_fine(draft, head, having[-1:])
+        draft.claim(head, SEEN, "", having[-1:])
         return []  # "a cyclist falls off his bike", "a car stops and the door opens"
     is_owned = group.article in owners or bool(draft.find(PERSON_NOUNS))
     is_part = noun and ((is_owned and noun.noun in HAND_NOUNS) or group.article == "its")
@@ -221,6 +223,13 @@ def _add_thing(draft: SceneDraft, group: Group, head: Token) -> int:
         draft.things[index] |= {"count": many, "is_open": not group.is_counted}
     draft.show_inherent(group.unknown, name)
     draft.claim(head, SEEN, "", [index])  # of a word that the others decide: "bar" as a counter
+    hued = {one: hue for one in group.unknown
+            if (hue := word_table("hued").get(f"{one.text} {head.text}"))}  # fmt: skip
+    for token, hue in hued.items():  # "a lab coat" is white, and in no laboratory
+        draft.things[index]["colour"] = hue
+        draft.mark(token, "shown")
+        draft.claim(token, "colour", hue, [index])
+    group = replace(group, unknown=tuple(one for one in group.unknown if one not in hued))
     say_modifiers(draft, group, index)
     for token in group.unknown if not draft.can_go(index) else ():
         if names_place(token, "") and not token.has("noun"):  # "a kitchen table"
@@ -273,6 +282,7 @@ def _name_members(
     draft.show(head)
     deed = {"deed": done} if (done := word_table("members_do").get(head.text)) else {}
     draft.last.nearest = [draft.add(noun, count, **deed) for noun, count in members]
+    draft.claim(head, SEEN, "", draft.last.nearest)
     for index in draft.last.nearest:
         say_modifiers(draft, group, index)
     return draft.last.nearest

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from texvent_scenes.description import SEEN
+from texvent_scenes.models.nouns import AFLOAT
 from texvent_scenes.models.places import is_room
 from texvent_scenes.read.draft.scene_draft import SceneDraft, split_move
 from texvent_scenes.read.parsing.groups import Group
@@ -166,8 +167,13 @@ def _is_overhead(draft: SceneDraft) -> bool:
 
 
 def leave_sky(draft: SceneDraft) -> bool:
-    """Leave open where things on the ground are of which only the sky is said: "it is clear"."""
-    on_ground = draft.is_over and any(map(draft.keeps_to_ground, range(len(draft.things))))
+    """Leave open where things on the ground are of which only the sky is said: "it is clear".
+
+    So does what floats on water, wherever the sky is named: boats sail under it.
+    """
+    things = range(len(draft.things))
+    on_ground = draft.is_over and any(map(draft.keeps_to_ground, things))
+    on_ground |= any(draft.noun(n).name in AFLOAT for n in things)
     if on_ground and draft.parts["place"].get("name") == "sky":
         del draft.parts["place"]["name"]
     return on_ground

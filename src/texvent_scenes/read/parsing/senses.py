@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
@@ -39,7 +40,7 @@ def choose_senses(tokens: Sequence[Token], nouns: Mapping[str, Noun]) -> list[To
     tokens = [_see_as_young(_see_as_move(one, tokens), tokens) for one in _drop_similes(tokens)]
     tokens = [_see_as_operator(_see_as_showing(one, tokens), tokens) for one in tokens]
     tokens = [replace(one, senses=()) if _is_of_light(one, tokens) or _is_state(one, tokens)
-              else one for one in tokens]  # fmt: skip
+              or _is_depicted(one, tokens) else one for one in tokens]  # fmt: skip
     named = [_see_as_mass(_see_as_verb(one, tokens), tokens) for one in tokens]
     related = [_relate(one, tokens) for one in named]
     chosen = [_choose(one, related, nouns) if not one.senses else one for one in related]
@@ -113,6 +114,14 @@ def _is_state(token: Token, tokens: Sequence[Token]) -> bool:
     return token.has("verb") and bool(after.nouns & {*true_of})
 
 
+def _is_depicted(token: Token, tokens: Sequence[Token]) -> bool:
+    """Whether a noun names what somebody draws, which is a picture: "sketches a horse"."""
+    led = [*reversed(tokens[max(token.at - _NEAR, 0) : token.at])]
+    own = [*itertools.takewhile(lambda one: one.has("articles", "field"), led)]
+    verb = led[len(own)].text if len(own) < len(led) else ""
+    return token.has("noun") and verb in word_set("things", "depicting") and bool(own)
+
+
 def _is_of_light(token: Token, tokens: Sequence[Token]) -> bool:
     """Whether it says from where light comes, not the view: "a lamp shines from above"."""
     is_view = ("camera", "view") in [one.value[:2] for one in token.all("scene")]
@@ -139,9 +148,20 @@ def _see_as_verb(token: Token, tokens: Sequence[Token]) -> Token:
     is_verb |= bool(forms) and _goes_on(token, tokens)
     is_led = after.text in word_set("things", "particles") and (then.is_sign or then.text == "and")
     is_verb |= True in forms and is_led and not before.has("articles", "field", "relation")
+    is_verb |= True in forms and bool(token.verbs("s")) and _is_after_subject(token, tokens)
     is_agreed = before.is_unknown and is_plural_form(before.text) and not after.has("noun")
     is_verb |= forms == {False} and bool(token.verbs("base")) and is_agreed  # "shadows slide"
     return replace(token, senses=token.all("verb")) if is_verb else token
+
+
+def _is_after_subject(token: Token, tokens: Sequence[Token]) -> bool:
+    """Whether only an article and a singular are before it in its clause: "the net swings"."""
+    after, before, article, first = (token_at(tokens, token.at + n) for n in (1, -1, -2, -3))
+    is_begun = first.at < 0 or first.is_sign or first.has("conjunctions")
+    is_begun |= token.at == 2
+    is_ended = after.is_sign or after.text == "and" or after.has("adverb") or after is NO_TOKEN
+    is_one = not (before.has("field") or is_plural_form(before.text) or before.is_sign)
+    return is_begun and article.has("articles") and is_one and is_ended
 
 
 def _goes_on(token: Token, tokens: Sequence[Token]) -> bool:

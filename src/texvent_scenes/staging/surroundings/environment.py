@@ -238,11 +238,16 @@ def _ground_under(description: SceneDescription, place: PlaceModel) -> Ground:
     return Ground.NONE if is_flat and is_bare else place.ground
 
 
+_BLACK_SKY = 0.03
+"""Greatest channel of a sky that is black down to its horizon."""
+
+
 def _sky_colours(place: PlaceModel, lighting: Lighting, said: Place) -> tuple[Colour, Colour]:
     """Colours of the zenith and of the horizon: of a backdrop those of ground in that light."""
     sky = rgb_of(said.sky)
     if sky is not None:
-        return sky, mix(sky, lighting.sky_horizon, 0.5)
+        haze = 0.5 if max(sky) > _BLACK_SKY else 0.05  # a black sky has no air
+        return sky, mix(sky, lighting.sky_horizon, haze)
     if not place.is_backdrop:
         return lighting.sky_top, lighting.sky_horizon
     average = mix(*_ground_colours(place, said), 0.5)
