@@ -8,11 +8,12 @@ import cv2
 import numpy as np
 import pytest
 from tests.dataset.conftest import CARS
+from tests.dataset.stored.written_set import random_events, write_shard
 
 from texvent.cli.app import main
 from texvent.cli.dataset.stored import SampleOptions
 from texvent.dataset import SampleSource, Specification, make
-from texvent.dataset.preview import choose_samples
+from texvent.dataset.preview import choose_samples, write_sample_page
 from texvent.dataset.stored.folder import StoredDataset
 from texvent.errors import InputError
 
@@ -42,6 +43,15 @@ def test_videos_without_a_caption_have_their_names(tmp_path):
     assert main(["dataset", "sample", str(tmp_path / "own")]) == 0
     page = (tmp_path / "own" / "samples.html").read_text("utf-8")
     assert "<strong>left/a&lt;b&gt;</strong>" in page
+
+
+@pytest.mark.parametrize("words", ["Zoës Fähre", "東京の車", "машина", "سيارة", "🚗"])
+def test_words_of_any_script_stand_on_the_page_as_they_are(tmp_path, words):
+    path = write_shard(tmp_path, "paper", "train", 0, {"a": random_events(1)}, labels=(words,))
+    dataset = StoredDataset.open(path.parent.parent)
+    page = write_sample_page(dataset, choose_samples(dataset), tmp_path / "a.html", overwrite=False)
+    # As the caption, its alternative, the label, and prompt and label among the facts.
+    assert page.read_text("utf-8").count(words) == 5
 
 
 def test_samples_are_chosen_by_chance_and_the_same_every_time(cars):

@@ -137,7 +137,7 @@ def test_a_small_fast_thing_is_where_it_is_and_nowhere_else(warp, position):
 
 
 def flows_of_surfaces(rng, shape):
-    """Flows both ways of surfaces that meet: slow, fast and impossible ones, of which some agree."""
+    """Flows both ways of surfaces that meet: slow, fast and impossible ones; some agree."""
     motions = rng.normal(0, 1, (5, 2)) * rng.choice([0.3, 4.0, 15.0, 60.0, 1e5], (5, 1))
     motions[:2] = (5, 1), rng.normal(0, 8, 2)
     side = rng.integers(1, 5)

@@ -1,12 +1,13 @@
 """How work is shared out among threads."""
 
+import os
 import threading
 import time
 
 import pytest
 
 from texvent.errors import ConfigError
-from texvent.runtime.threads import count_threads, run_parts, split
+from texvent.runtime.threads import _workers, count_threads, run_parts, split
 
 VARIABLES = ("TEXVENT_NUM_THREADS", "NUMBA_NUM_THREADS")
 
@@ -25,6 +26,35 @@ def test_slices_make_up_the_whole(size, parts, unit):
     assert [i for one in slices for i in range(one.start, one.stop)] == list(range(size))
     assert len(slices) <= parts
     assert all((one.stop - one.start) % unit == 0 for one in slices[:-1])
+
+
+@pytest.mark.parametrize("cores", [1, 2, 5])
+def test_without_a_setting_there_is_a_thread_for_each_core_of_this_process(monkeypatch, cores):
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: {*range(3, 3 + cores)}, raising=False)
+    assert count_threads() == cores
+    monkeypatch.delattr(os, "sched_getaffinity")
+    for known in (cores, None):  # as macOS and Windows count, if they can
+        monkeypatch.setattr(os, "cpu_count", lambda: known)  # noqa: B023
+        assert count_threads() == (known or 1)
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_no_more_threads_work_at_once_than_are_set(monkeypatch, count):
+    monkeypatch.setenv("TEXVENT_NUM_THREADS", str(count))
+    _workers.cache_clear()
+    waiting, seen = threading.Barrier(count, timeout=300), set()
+
+    def work(part):
+        waiting.wait()  # until as many as are set
+        seen.add(threading.get_ident())
+        return part
+
+    try:
+        assert run_parts(work, range(4 * count)) == [*range(4 * count)]
+    finally:
+        _workers().shutdown()
+        _workers.cache_clear()
+    assert len(seen) == count
 
 
 def test_results_come_in_the_order_of_the_parts_and_threads_work_at_once():

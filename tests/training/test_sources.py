@@ -144,12 +144,20 @@ class Counted:
         return Clip(np.full((1, 8, 8), index, np.uint8), np.zeros(1, np.int64))
 
 
-@given(asked=st.lists(st.integers(0, 5), max_size=30), room=st.integers(1, 4))
-def test_clips_that_were_used_last_are_held(asked, room):
+@given(
+    asked=st.lists(st.integers(0, 6), max_size=40), room=st.integers(1, 4), shelf=st.integers(0, 3)
+)
+def test_clips_that_were_used_last_are_held_then_stored(asked, room, shelf):
     source = Counted()
-    store, held, expected = ClipStore(source, (), room * 72, 0), [], []
+    store, held, stored, expected = ClipStore(source, (), room * 72, shelf * 72), [], [], []
     for index in asked:
         assert store.get(index).frames[0, 0, 0] == index
+        if index in stored:
+            stored.append(stored.pop(stored.index(index)))
+            continue
         expected += [] if index in held else [index]
-        held = [*(one for one in held if one != index), index][-room:]
+        held = [*(one for one in held if one != index), index]
+        stored = [*stored, *held[:-room]][-shelf:] if shelf else []
+        held = held[-room:]
+        assert (store.memory_bytes, store.disk_bytes) == (72 * len(held), 72 * len(stored))
     assert source.seen == expected

@@ -47,10 +47,11 @@ INSTANT = st.lists(st.tuples(st.integers(0, 2), st.integers(1, 9)), min_size=8, 
 """Id and depth of eight pixels."""
 
 
-@given(INSTANT, INSTANT)
-def test_an_event_shows_the_nearest_object_of_both_instants(first, second):
-    before, after = (snapshot(t, *zip(*one, strict=True)) for t, one in ((0, first), (9, second)))
-    found = ids_of_frames(before, after, FrameSpan(0, 9, events_at(range(8))))
+@given(INSTANT, INSTANT, st.sampled_from([0, -7, 10**7]))
+def test_an_event_shows_the_nearest_object_of_both_instants(first, second, began):
+    before = snapshot(began, *zip(*first, strict=True))
+    after = snapshot(began + 9, *zip(*second, strict=True))
+    found = ids_of_frames(before, after, FrameSpan(began, began + 9, events_at(range(8))))
     for one, *seen in zip(found.tolist(), first, second, strict=True):
         objects = [(depth, number) for number, depth in seen if number]
         assert one == min(objects, key=lambda pair: pair[0], default=(0, 0))[1]
@@ -84,8 +85,16 @@ def test_ids_move_along_their_vectors_and_near_ones_cover_far_ones():
     assert met.tolist() == [[0, 0, 0, 1, 1, 0, 0, 0]]
 
 
-def test_without_vectors_the_closer_frame_counts():
-    before, after = snapshot(0, [1] * 8), snapshot(1000, [2] * 8)
-    early = ids_of_frames(before, after, FrameSpan(0, 400, events_at([3])))
-    late = ids_of_frames(before, after, FrameSpan(600, 1000, events_at([3])))
-    assert (early.tolist(), late.tolist()) == ([1], [2])
+@pytest.mark.parametrize("began", [0, -700, 10**9])
+def test_between_frames_ids_are_those_of_the_share_of_the_time_that_has_gone(began):
+    for flow in (None, [0] * 8):  # without vectors, the closer frame counts
+        before, after = snapshot(began, [1] * 8, flow_x=flow), snapshot(began + 1000, [2] * 8)
+        for start, stop, seen in ((0, 400, 1), (600, 1000, 2), (600, 999, 2), (-200, 499, 1)):
+            span = FrameSpan(began + start, began + stop, events_at([3]))
+            assert ids_of_frames(before, after, span).tolist() == [seen if flow is None else 1]
+    before = snapshot(began, [1] + [0] * 7, [2] + [9] * 7, [7] + [0] * 7)
+    after = snapshot(began + 700, [0] * 7 + [1], [9] * 7 + [2])
+    for at in range(8):
+        span = FrameSpan(began + 100 * at, began + 100 * at, events_at(range(8)))
+        found = ids_of_frames(before, after, span)
+        assert np.flatnonzero(found).tolist() == [at]

@@ -319,6 +319,27 @@ def test_latency_is_that_of_the_frames_drawn_since_the_model_was_compiled(source
     live.close()
 
 
+@pytest.mark.parametrize("begin", ["record", "change"])
+def test_an_error_is_said_until_something_new_is_begun(source, tmp_path, begin):
+    live = LiveEvents(source, {"simulator": "esim"})
+    for number in range(4):
+        step(live, source, number)
+    live.record(tmp_path / "a.h5", "hdf5")
+
+    def fail(events):
+        raise OSError("the disk is full")
+
+    live._recording.append = fail
+    for number in (4, 5):
+        step(live, source, number)
+        assert "the disk is full; its events until then are in" in live.describe()["error"]
+        assert live.describe()["recording"] is None
+    live.record(tmp_path / "b.h5", "hdf5") if begin == "record" else live.change("v2e", None)
+    assert live.describe()["error"] == ""
+    source.end()
+    live.close()
+
+
 def test_bad_input_is_one_line(capsys, source):
     assert "no such camera: /dev/video77" in refused(capsys, "live", "/dev/video77")
     with LiveServer(LiveEvents(source, {}), "camera", Path()) as page:

@@ -1,19 +1,24 @@
 """What is held tilts, sways and turns in the hand; a motion that no hand holds is refused."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from tests.scenes.every_row import for_every
-from tests.scenes.staged import stage
+from tests.scenes.staged import DURATION_S, SIZE, stage
 from tests.scenes.test_short_prompts import is_right, report, staged
 
 from texvent.errors import ConfigError
+from texvent_scenes.description import IndexedRelation, SceneDescription
 from texvent_scenes.models.anchors import gripper_of
+from texvent_scenes.models.materials import Material
 from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.models.shapes import ArticulatedModel, ball
 from texvent_scenes.models.tables import trait_values
 from texvent_scenes.scene_input import describe_scene
-from texvent_scenes.spec.scene import Motion, Relation, Scene, SceneObject
+from texvent_scenes.spec.scene import Motion, Place, Relation, Scene, SceneObject
+from texvent_scenes.staging.compose import compose_scene
 
 HELD = ("checkerboard", "mug", "sign", "box")
 TURNS = ("tilt", "sway", "spin", "rotate")
@@ -132,3 +137,34 @@ def test_what_is_put_on_a_box_is_on_top_and_in_it_at_its_bottom(way, share):
     (box,) = (one for one in scene.actors if one.noun.name.endswith("box"))
     low_m = box.lowest_m(1.99) + share * box.model.height
     assert cube.lowest_m(1.99) == pytest.approx(low_m, abs=0.06 * box.model.height)
+
+
+def middles_of(who, kind, habitat):
+    """[times, 2, 3] where a body and an egg-shaped thing are, whose origin its habitat decides."""
+
+    def build(*, colour, scale, seed):
+        foot = 0.0 if habitat == "water" else 0.15
+        shape = ball(Material((0.5, 0.5, 0.5)), (0.0, 0.0, foot), (0.2, 0.25, 0.3))
+        return ArticulatedModel([shape], is_centred=habitat == "water").scaled(scale)
+
+    noun = replace(NOUNS["box"], build=build, habitat=habitat)
+    said = SceneDescription(
+        objects=(SceneObject(who), SceneObject("box")),
+        relations=(IndexedRelation(kind, 0, (1,)),),
+        place=Place("grass", is_empty=True),
+    )
+    nouns = {**NOUNS, "box": noun}
+    scene = compose_scene(said, seed=0, size=SIZE, duration_s=DURATION_S, nouns=nouns)
+    actors = sorted(scene.actors, key=lambda one: one.object_index)
+    found = np.array([[one.middle(t) for one in actors] for t in np.linspace(0.0, 1.9, 7)])
+    return found - found[:1, 1:] * (kind == "ride")  # what is ridden stands where it lives
+
+
+BONDS_OF_ALL = ("hold", "wear", "push", "kick", "throw", "roll", "lift", "drop", "catch", "pull",
+                "set down", "move over", "ride")  # fmt: skip
+HOLDERS = ("man", "dog", "hand", "robot arm", "forklift")
+
+
+@for_every([(who, kind) for who in HOLDERS for kind in BONDS_OF_ALL])
+def test_a_thing_is_where_its_holder_has_it_wherever_its_origin_is(row):
+    np.testing.assert_allclose(middles_of(*row, "ground"), middles_of(*row, "water"), atol=1e-9)
