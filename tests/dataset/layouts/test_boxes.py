@@ -2,9 +2,11 @@
 
 import numpy as np
 import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
 from tests.dataset.layouts.crossing import CAR, INSTANTS, MAN, crossing_boxes
 
-from texvent.dataset.layouts.boxes import LABEL_RECORD, ClassList, boxes_at, records_of
+from texvent.dataset.layouts.boxes import GATHERED, LABEL_RECORD, ClassList, boxes_at, records_of
 from texvent.errors import ConfigError, InputError
 from texvent.truth.boxes import BOX_RECORD
 
@@ -86,6 +88,30 @@ def test_classes_gather_and_the_others_go() -> None:
     for text, said in wrong.items():
         with pytest.raises(ConfigError, match=said):
             ClassList.parse(text)
+
+
+NOUNS = ("taxi", "bus", "cyclist", "sign", "dog")
+
+
+@example(["car", "bus"], [[], ["taxi"], [], []])  # stated, and usually gathered by another
+@given(
+    st.lists(st.sampled_from([*GATHERED, *NOUNS]), min_size=1, max_size=4, unique=True),
+    st.lists(st.lists(st.sampled_from(NOUNS), max_size=3, unique=True), min_size=4, max_size=4),
+)
+def test_a_class_counts_where_it_is_stated_or_under_the_first_name_that_usually_gathers_it(
+    names, stated
+):
+    taken = set()
+    gathered = [[one for one in each if one not in names and not (one in taken or taken.add(one))]
+                for each in stated]  # fmt: skip
+    entries = [f"{name}={'+'.join((name, *each))}" if each else name
+               for name, each in zip(names, gathered, strict=False)]  # fmt: skip
+    numbers = ClassList.parse(",".join(entries)).numbers
+    for noun in {*NOUNS, *names, *(one for each in GATHERED.values() for one in each)}:
+        said = [n for n, entry in enumerate(entries) if noun in entry.partition("=")[2].split("+")]
+        said += [n for n, entry in enumerate(entries) if entry == noun]
+        said += [n for n, entry in enumerate(entries) if noun in GATHERED.get(entry, ())]
+        assert numbers.get(noun) == (said[0] if said else None), noun
 
 
 def test_times_below_0_do_not_become_late_ones() -> None:
