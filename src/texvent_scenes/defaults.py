@@ -119,8 +119,7 @@ def _snow_over(description: SceneDescription) -> SceneDescription:
 
 
 def _lead_along(description: SceneDescription) -> SceneDescription:
-    """Those who go somewhere in a corridor come along it; seen from behind, or to a thing, they go.
-    """
+    """Those who go somewhere in a corridor come along it; seen from behind, or to things, go."""
     aimed = {one.subject for one in description.relations if one.kind in _AIMED}
     ways: tuple[Direction, Direction] = ("towards", "away")
     is_back = description.camera.view == "back"

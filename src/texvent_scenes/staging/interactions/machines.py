@@ -10,7 +10,7 @@ from texvent_scenes.models.anchors import gripper_of, grips
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.spec.scene import SceneObject
 from texvent_scenes.staging.actors import Actor, size_of
-from texvent_scenes.staging.interactions.gripping import grip
+from texvent_scenes.staging.interactions.gripping import Left, grip
 
 __all__ = ["fit_hand", "grips", "perform_grip"]
 
@@ -50,14 +50,14 @@ def perform_grip(
                      for one in description.claims)  # fmt: skip
     is_left = act.kind in ("move over", "set down", "drop")
     over = next((kind for kind in _OVER if kind in below), "") if is_left else ""
+    left: Left = "in" if over != "on" else "pile" if is_stacked else "on"
     goal = below.get(over)
     support = next((below[kind] for kind in _UNDER if kind in below and below[kind] != goal), None)
     machine, handled, put = grip(
         act.kind, cast[who[0]], [cast[n] for n in things], duration_s,
         support=None if support is None else cast[support],
         goal=None if goal is None else cast[goal],
-        is_turned=description.objects[act.subject].heading_deg is None, is_inside=over != "on",
-        is_stacked=is_stacked and over == "on",
+        is_turned=description.objects[act.subject].heading_deg is None, left=left,
     )  # fmt: skip
     cast.update({who[0]: machine, **dict(zip(things, handled, strict=True))})
     if goal is not None and put is not None:
