@@ -81,7 +81,7 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
         description = _note(description, f"{NO_PLACE}: {place} is chosen")
     description = replace(description, place=replace(description.place, name=place))
     if PLACES[place].corridor_m:
-        description = _lead_along(description)
+        description = _lead_along(description, nouns)
     if description.place.has_snow or PLACES[place].ground is Ground.SNOW:
         description = _snow_over(description)
     if PLACES[place].has_surface:
@@ -118,10 +118,16 @@ def _snow_over(description: SceneDescription) -> SceneDescription:
     return _change(description, new)
 
 
-def _lead_along(description: SceneDescription) -> SceneDescription:
-    """Those who go somewhere in a corridor come along it; seen from behind, or to a thing, they go.
+def _lead_along(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
+    """Those who go somewhere in a corridor come along it.
+
+    Seen from behind, to things, or with smaller followers, whom they would hide, they go.
     """
+    tall = [nouns[one.noun].build(colour=None, scale=one.size, seed=0).height
+            for one in description.objects]  # fmt: skip
     aimed = {one.subject for one in description.relations if one.kind in _AIMED}
+    aimed |= {n for one in description.relations for n in (one.subject, *one.targets)
+              if one.kind == "follow" and tall[one.subject] < tall[one.targets[0]]}  # fmt: skip
     ways: tuple[Direction, Direction] = ("towards", "away")
     is_back = description.camera.view == "back"
     new = {

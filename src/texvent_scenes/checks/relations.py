@@ -113,8 +113,10 @@ def find_violations(
             holds("facing", each, others) for each in copies[one.subject]
         ):
             held = []
-        is_queue = who in queues or (kind == "on" and who in piles) or (
-            one.kind == "beside" and are_driven(description.objects[who].noun)
+        is_queue = (
+            who in queues
+            or (kind == "on" and who in piles)
+            or (one.kind == "beside" and are_driven(description.objects[who].noun))
         )
         # Only the first stands at the light, only the lowest of a pile is on a pallet.
         least = 1 if is_queue else _MOST_COPIES * len(own)

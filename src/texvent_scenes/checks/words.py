@@ -247,8 +247,7 @@ def is_in_line(places: Float64Array) -> bool:
 
 
 def _is_stack(staged: StagedClip, claim: Claim) -> bool:
-    """Whether bodies of its noun are on top of each other, all but the lowest one; or one, at the
-    end."""
+    """Whether bodies of its noun are on top of each other, all but the lowest; at the end, one."""
     objects = staged.description.objects
     noun = objects[claim.subject or 0].noun
     is_end = claim.value == "end"

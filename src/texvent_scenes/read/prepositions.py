@@ -235,6 +235,8 @@ def claim_relation(
         draft.claim(token, "sit at", "", subjects, targets)
     if is_shown and token.text == "by" and nouns <= HAND_NOUNS and does - {"stand"}:
         draft.claim(token, "grip", "hold", targets, subjects)  # "tilted by hand"
+    if is_shown and kind == "to" and "jump" in does:  # "from a table to a chair"
+        draft.claim(token, "arrive", "on", subjects, targets)
     if is_shown and kind == "between" and token.text.endswith(" between"):
         draft.claim(token, "out between", "", subjects, targets)
     if is_shown and token.text == "along":

@@ -10,6 +10,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import Literal
 
 import numpy as np
 
@@ -43,6 +44,8 @@ ACTIVITIES = {
     "drop": "machine moves", "hold": "machine holds",
 }  # fmt: skip
 """Relation → activity of a machine."""
+Left = Literal["in", "on", "pile"]
+"""Where a thing is left."""
 _CARRIED_S, _OVER_RIM_M, _LATEST_S = 1.2, 0.12, 0.8
 """From where a thing is taken to where it is left, s; height above a rim at which it is let go, m;
 the last instant at which what is moved is taken."""
@@ -60,10 +63,8 @@ class _Plan:
     gripper: Gripper
     kind: str
     contact_s: float
-    is_inside: bool
-    """Whether the thing is left in the goal, not on it."""
-    is_stacked: bool = False
-    """Whether the others are on top of each other on the goal."""
+    left: Left
+    """Where the thing is left."""
 
     @property
     def activity(self) -> str:
@@ -94,7 +95,7 @@ def _settings(value: float, place: int, turn: float) -> tuple[float, float, floa
 def grip(
     kind: str, machine: Actor, things: Sequence[Actor], duration_s: float, *,
     support: Actor | None = None, goal: Actor | None = None, is_turned: bool = True,
-    is_inside: bool = True, is_stacked: bool = False,
+    left: Left = "in",
 ) -> tuple[Actor, list[Actor], Actor | None]:  # fmt: skip
     """The machine, the things and the goal of an act.
 
@@ -106,8 +107,7 @@ def grip(
         support: what the first is on; else the machine has it where its hand is.
         goal: what it is set down on or in, which is put there.
         is_turned: whether the machine may be turned, its side to the camera.
-        is_inside: whether it is left in a goal that has a rim, not on it.
-        is_stacked: whether it is left on the others, which the goal bears.
+        left: in a goal that has a rim, on it, or on a pile of the others, which it bears.
     """
     row = gripper_of(machine.noun.name)
     if kind == "hold":
@@ -116,7 +116,7 @@ def grip(
         row = replace(row, turn=math.copysign(0.5 * math.pi, row.turn))
     if support is None and is_turned:
         machine = moving(machine, steady(machine.track.at(0.0).position, 0.0))
-    plan = _Plan(machine, row, kind, _contact_s(kind, duration_s), is_inside, is_stacked)
+    plan = _Plan(machine, row, kind, _contact_s(kind, duration_s), left)
     first, *others = things
     level_m = machine.track.at(0.0).position[2]
     pick = 0.0
@@ -195,8 +195,8 @@ def _left_height(plan: _Plan, goal: Actor | None, others: Sequence[Actor], first
     level_m = plan.machine.track.at(0.0).position[2]
     pile_m = sum(one.model.height for one in others)
     if goal is not None:
-        rim = find_rim(goal.noun.name, goal.model) if plan.is_inside else None
-        level_m += pile_m if plan.is_stacked else 0.0
+        rim = find_rim(goal.noun.name, goal.model) if plan.left == "in" else None
+        level_m += pile_m if plan.left == "pile" else 0.0
         return level_m + (rim.height + _OVER_RIM_M if rim else find_support(goal.model).height)
     fallen = 2.0 * first.model.height if plan.kind == "drop" else 0.0
     return level_m + fallen + pile_m
@@ -212,7 +212,7 @@ def _put_below(
         there = (float(x), float(y), goal.track.at(0.0).position[2])
         across = 0.5 * math.pi * (goal.model.length > goal.model.width)
         goal = moving(goal, steady(there, yaw + settings[2] + across, activity="stand"))
-        if not plan.is_stacked:
+        if plan.left != "pile":
             return goal, [*others]
         height_m += find_support(goal.model).height
     stacked = []
@@ -253,7 +253,7 @@ def _bound(carrier: Track, axes: partial[Float64Array], place: Affine, time_s: f
 
 def _floor_below(plan: _Plan, thing: Actor, goal: Actor | None) -> float | None:
     """Height of its origin where it comes to rest after it is let go; None: it stays there."""
-    is_in = goal is not None and plan.is_inside and has_rim(goal.noun.name)
+    is_in = goal is not None and plan.left == "in" and has_rim(goal.noun.name)
     is_dropped = plan.kind == "drop" or is_in
     level_m = plan.machine.track.at(0.0).position[2]
     return level_m + thing.foot_m if is_dropped else None

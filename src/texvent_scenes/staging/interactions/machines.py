@@ -14,7 +14,7 @@ from texvent_scenes.models.shapes import point
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.scene import SceneObject
 from texvent_scenes.staging.actors import Actor, size_of
-from texvent_scenes.staging.interactions.gripping import grip
+from texvent_scenes.staging.interactions.gripping import Left, grip
 
 __all__ = ["fit_hand", "grips", "perform_grip"]
 
@@ -54,6 +54,7 @@ def perform_grip(
                      for one in description.claims)  # fmt: skip
     is_left = act.kind in ("move over", "set down", "drop")
     over = next((kind for kind in _OVER if kind in below), "") if is_left else ""
+    left: Left = "in" if over != "on" else "pile" if is_stacked else "on"
     goal = below.get(over)
     support = next((below[kind] for kind in _UNDER if kind in below and below[kind] != goal), None)
 
@@ -62,8 +63,7 @@ def perform_grip(
             act.kind, cast[who[0]], [cast[n] for n in things], duration_s,
             support=None if support is None else cast[support],
             goal=None if goal is None else cast[goal],
-            is_turned=description.objects[act.subject].heading_deg is None, is_inside=over != "on",
-            is_stacked=is_stacked and over == "on",
+            is_turned=description.objects[act.subject].heading_deg is None, left=left,
         )  # fmt: skip
 
     machine, handled, put = perform()

@@ -275,14 +275,17 @@ class ObjectPlacer:
                 goal = self._one_after_another(goal, group, subject, relation)
                 return place_at_distance(goal, group, relation, subject, -1.0)
         if self._along is not None:
-            scene = self._description
-            is_goal = scene.index(scene.camera.target) == group.index
-            if len(group.models) > 1 and any(
-                one.kind == "between" and one.targets == (group.index,) for one in scene.relations
-            ):
-                return Goal(self._along.park(group, height), np.zeros(3))
-            return Goal(self._along.place(group, height, is_goal=is_goal), np.zeros(3))
+            return Goal(self._place_along(self._along, group, height), np.zeros(3))
         return self._choose_free_goal(group, height)
+
+    def _place_along(self, along: RoutePlacer, group: ObjectGroup, height: float) -> Float64Array:
+        """[3] a place along the route of the camera; those between whom others come in one row."""
+        scene = self._description
+        apart = [one.targets for one in scene.relations if one.kind == "between"]
+        if len(group.models) > 1 and (group.index,) in apart:
+            return along.park(group, height)
+        is_goal = scene.index(scene.camera.target) == group.index
+        return along.place(group, height, is_goal=is_goal)
 
     def _rest(
         self, group: ObjectGroup, relation: IndexedRelation, targets: Sequence[ObjectGroup],
