@@ -233,3 +233,54 @@ def test_a_caption_names_both_colours_of_a_pattern(noun):
     lines = report(f"a {noun} in a meadow").caption
     line = next(one for one in lines if one.startswith(noun))
     assert " and " in line[: line.index(" m ")]
+
+
+@pytest.mark.parametrize(
+    ("text", "place"),
+    [("a cat looks at a bird on a branch", [(), ("on",), ()]),
+     ("a cat stares at a goldfish in a bowl", [(), ("in",), ()]),
+     ("a dog barks at a cat on a wall", [(), ("on",), ()]),
+     ("a man watches a bird on a fence", [(), ("on",), ()])],
+)  # fmt: skip
+def test_what_follows_the_one_looked_at_says_where_that_is(text, place):
+    said = [tuple(each.kind for each in one.relations if each.kind in ("in", "on"))
+            for one in read(text, NOUNS).scene.objects]  # fmt: skip
+    assert said == place
+
+
+@pytest.mark.parametrize(
+    ("text", "nouns"),
+    [("a tennis player hits the ball over the net", {"tennis player", "tennis ball", "tennis net"}),
+     ("a player on a tennis court waits, a ball rolls", {"tennis player", "tennis ball"}),
+     ("a player kicks the ball", {"football player", "football"})],
+)  # fmt: skip
+def test_a_ball_is_that_of_the_game(text, nouns):
+    assert {noun for noun, _ in nouns_of(text)} == nouns
+
+
+@pytest.mark.parametrize(("noun", "act"), [("fish", "swims"), ("sheep", "runs"), ("deer", "jumps")])
+def test_one_whose_plural_is_the_same_is_named_again(noun, act):
+    assert nouns_of(f"a {noun} stands. The {noun} {act}") == [(noun, 1)]
+
+
+@pytest.mark.parametrize("text", ["a girl sketches a horse", "a man draws a ship",
+                                  "a child is drawing a house"])  # fmt: skip
+def test_what_is_drawn_on_paper_is_no_thing(text):
+    assert len(nouns_of(text)) == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [("a pianist plays a grand piano", "the grand piano: a piano is drawn"),
+     ("a woman kneads dough on a table", "the table: a kitchen counter is drawn")],
+)  # fmt: skip
+def test_a_thing_that_an_act_brings_as_another_one_is_told(text, line):
+    assert line in report(text).not_shown
+
+
+@pytest.mark.parametrize(
+    ("colour", "is_dark"), [("black", True), ("orange", False), ("blue", False)]
+)
+def test_a_black_sky_is_so_down_to_the_horizon(colour, is_dark):
+    sky = staged(f"a rocket on mars under a {colour} sky")[0].environment(0.0)
+    assert (max(sky.sky_horizon) < 0.1) == is_dark
