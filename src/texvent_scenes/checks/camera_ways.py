@@ -87,7 +87,10 @@ def is_at_eye_level(staged: StagedClip, claim: Claim) -> bool:
         return bool(is_level)
     main = choose_main(staged.description, staged.scene.actors)
     if main.noun.name not in PERSON_NOUNS and claim.value != "own":
-        return True
+        heights = [(camera.position[2], *np.sort(main.corners(one)[:, 2])[[0, -1]])
+                   for camera, one in zip(cameras, staged.times, strict=True)]  # fmt: skip
+        is_so = [eyes <= _EYES_M[1] or low <= eyes <= high for eyes, low, high in heights]
+        return bool(np.mean(is_so) >= _HALF)
     tops = [main.corners(one)[:, 2].max() for one in staged.times]
     heights = [one.position[2] for one in cameras]
     shares = np.array(heights) / np.maximum(tops, 1e-6)

@@ -43,6 +43,7 @@ _SOFT = ((25.0, 0.006), (50.0, 0.002))
 """The same of what is soft, as dust, of which a faint trace shows nothing: one is enough."""
 _FAINT = (3.0, 0.01)
 """Difference and share of what changes pixels so little that it is told by none."""
+_DRY = "the ground looks dry"
 _UNTOLD = ("no pixel shows it", "so faint that it is hardly seen")
 _GLEAM = (20.0, 0.004)
 """Difference and share of pixels that are brighter by what a wet ground mirrors in the dark."""
@@ -150,7 +151,8 @@ def find_unshown(
             is_kind = name in ("light", "weather", "effect")
             line = name.split("_")[-1] if value is True else f"{name} {value}"
             is_faint = drawn.differ(other, least=_FAINT[1], levels=_FAINT[0])
-            line = f"{line.replace('_', ' ')}: {_UNTOLD[is_faint]}"
+            is_ground = name == "is_wet"  # it is darker, which is no sheen
+            line = f"{line.replace('_', ' ')}: {_DRY if is_ground else _UNTOLD[is_faint]}"
             yield Violation(name, value if is_kind else "", line)
             if name == "sky" and not any(one.colour == value for one in description.objects):
                 yield Violation("colour", value, "")

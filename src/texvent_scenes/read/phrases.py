@@ -48,7 +48,8 @@ def say_after(
         ):
             continue
         if isinstance(one, Phrase):
-            who = _choose_placed(draft, one, last, subjects, told)
+            who = _find_aimed(draft, one, last, subjects)
+            who = who or _choose_placed(draft, one, last, subjects, told)
             who = [] if is_of_particles(draft, one) else who
             told = apply_phrase(draft, one, who, moved) or moved
             last = one.preposition
@@ -112,6 +113,16 @@ def _choose_placed(
     goes_off = draft.names(subjects) <= PERSON_NOUNS and any(map(draft.goes, subjects))
     is_passed |= before == "from" and goes_off  # "walks away from a bag on a chair"
     return told if kind in PLACING and is_passed else subjects
+
+
+def _find_aimed(draft: SceneDraft, phrase: Phrase, last: Token, subjects: Indices) -> list[int]:
+    """What somebody looks at, if a phrase follows it at once: "looks at a bird on a branch"."""
+    verb, before = draft.last.verb or NO_TOKEN, draft.beside(phrase.preposition, -1)
+    nearest = [one for one in draft.last.nearest if one not in subjects]
+    is_at = last.text == "at" and any(map(draft.walks, nearest))  # no desk that one sits at
+    is_at |= bool(draft.targets(subjects, ["towards"]))
+    is_next = bool(before.nouns & draft.names(nearest)) and verb is not NO_TOKEN
+    return nearest if is_at and is_next and phrase.preposition.relation in ("on", "in") else []
 
 
 def _fill_vessels(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:

@@ -196,7 +196,8 @@ def _name_thing(draft: SceneDraft, group: Group, head: Token) -> list[int]:
     draft.show(head)
     unknown = {one.text for one in group.unknown} - word_set("things", "wholes")
     is_plain = not group.modifiers and not unknown
-    same = [n for n in known if group.is_plural == (draft.things[n]["count"] > 1)]
+    is_either = head.text in list_plurals(head.text)  # "the fish", one or more
+    same = [n for n in known if is_either or group.is_plural == (draft.things[n]["count"] > 1)]
     if len(known) > len(same):  # "the player", of a player and two defenders
         same = [n for n in same if draft.things[n].get("word", "").endswith(head.text)] or same
     if same and is_plain and is_again(draft, group, head, same[-1]):

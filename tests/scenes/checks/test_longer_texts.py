@@ -233,3 +233,92 @@ def test_a_caption_names_both_colours_of_a_pattern(noun):
     lines = report(f"a {noun} in a meadow").caption
     line = next(one for one in lines if one.startswith(noun))
     assert " and " in line[: line.index(" m ")]
+
+
+@pytest.mark.parametrize(
+    ("text", "place"),
+    [("a cat looks at a bird on a branch", [(), ("on",), ()]),
+     ("a cat stares at a goldfish in a bowl", [(), ("in",), ()]),
+     ("a dog barks at a cat on a wall", [(), ("on",), ()]),
+     ("a man watches a bird on a fence", [(), ("on",), ()])],
+)  # fmt: skip
+def test_what_follows_the_one_looked_at_says_where_that_is(text, place):
+    said = [tuple(each.kind for each in one.relations if each.kind in ("in", "on"))
+            for one in read(text, NOUNS).scene.objects]  # fmt: skip
+    assert said == place
+
+
+@pytest.mark.parametrize(
+    ("text", "nouns"),
+    [("a tennis player hits the ball over the net", {"tennis player", "tennis ball", "tennis net"}),
+     ("a player on a tennis court waits, a ball rolls", {"tennis player", "tennis ball"}),
+     ("a player kicks the ball", {"football player", "football"})],
+)  # fmt: skip
+def test_a_ball_is_that_of_the_game(text, nouns):
+    assert {noun for noun, _ in nouns_of(text)} == nouns
+
+
+@pytest.mark.parametrize(("noun", "act"), [("fish", "swims"), ("sheep", "runs"), ("deer", "jumps")])
+def test_one_whose_plural_is_the_same_is_named_again(noun, act):
+    assert nouns_of(f"a {noun} stands. The {noun} {act}") == [(noun, 1)]
+
+
+@pytest.mark.parametrize("text", ["a girl sketches a horse", "a man draws a ship",
+                                  "a child is drawing a house"])  # fmt: skip
+def test_what_is_drawn_on_paper_is_no_thing(text):
+    assert len(nouns_of(text)) == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [("a pianist plays a grand piano", "the grand piano: a piano is drawn"),
+     ("a woman kneads dough on a table", "the table: a kitchen counter is drawn")],
+)  # fmt: skip
+def test_a_thing_that_an_act_brings_as_another_one_is_told(text, line):
+    assert line in report(text).not_shown
+
+
+@pytest.mark.parametrize(
+    ("colour", "is_dark"), [("black", True), ("orange", False), ("blue", False)]
+)
+def test_a_black_sky_is_so_down_to_the_horizon(colour, is_dark):
+    sky = staged(f"a rocket on mars under a {colour} sky")[0].environment(0.0)
+    assert (max(sky.sky_horizon) < 0.1) == is_dark
+
+
+@pytest.mark.parametrize("text", ["a woman kneads dough", "a chef chops carrots",
+                                  "a man repairs a watch at a workbench"])  # fmt: skip
+def test_a_push_in_that_nobody_sees_is_told(text):
+    said = report(f"{text}, extreme close-up, slow push in")
+    assert "push in" not in said.shown
+    assert "dolly of the camera: it stays where it is" in said.not_shown
+    assert "push in" in report("a dog runs, slow push in").shown
+
+
+@pytest.mark.parametrize(
+    ("text", "is_so"),
+    [("a dog sits, camera at its eye level", True),
+     ("a cat sits, the camera is at eye level", True),
+     ("a ship far away on the sea, camera at eye level", False)],
+)  # fmt: skip
+def test_eye_level_is_as_high_as_eyes_or_as_the_subject(text, is_so):
+    assert any("eye level" in one for one in report(text).shown) == is_so
+
+
+@pytest.mark.parametrize(
+    ("text", "is_so"),
+    [("the camera keeps a horse in the center of the frame as it gallops", True),
+     ("a dog runs, the camera keeps it in the middle of the picture", True)],
+)  # fmt: skip
+def test_what_is_kept_in_the_middle_is_there(text, is_so):
+    assert any("of the" in one for one in report(text).shown) == is_so
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [("a cat crosses a wet street under street lamps at night", "wet: the ground looks dry"),
+     ("a man walks on a wet street at night with street lamps", "wet: the ground looks dry"),
+     ("a car drives on a wet road at night", "wet: the ground looks dry")],
+)  # fmt: skip
+def test_a_wet_ground_that_looks_dry_is_told_so(text, line):
+    assert line in report(text).not_shown
