@@ -9,6 +9,7 @@ import sys
 import numpy as np
 import pytest
 
+from texvent.runtime import memory
 from texvent.runtime.array_pool import MOST, ArrayPool
 from texvent.runtime.memory import _find_trim
 
@@ -146,3 +147,18 @@ def test_a_soft_limit_of_the_process_bounds_what_a_run_may_use(kind):
         f"assert usable_bytes() <= SHARE * {soft}, usable_bytes()"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+@pytest.mark.parametrize("scarce", ["machine", "group", "old group", "process"])
+@pytest.mark.parametrize("others", [10**12, None])
+def test_the_scarcest_memory_decides(tmp_path, monkeypatch, scarce, others):
+    sizes = dict.fromkeys(("machine", "group", "old group", "process"), others)
+    sizes[scarce] = 10**9 + 7
+    groups = [tmp_path / name for name in ("group", "old group", "not there")]
+    for one in groups[:2]:
+        one.write_text("max\n" if sizes[one.name] is None else f"{sizes[one.name]}\n")
+    limits = [] if sizes["process"] is None else [sizes["process"]]
+    monkeypatch.setattr(memory, "machine_bytes", lambda: sizes["machine"])
+    monkeypatch.setattr(memory, "_process_limits", lambda: limits)
+    monkeypatch.setattr(memory, "_CONTROL_GROUPS", tuple(groups))
+    assert memory.usable_bytes.__wrapped__() == int(0.8 * sizes[scarce])

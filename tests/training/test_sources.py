@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from tests.dataset.conftest import make_set
 
@@ -144,6 +144,7 @@ class Counted:
         return Clip(np.full((1, 8, 8), index, np.uint8), np.zeros(1, np.int64))
 
 
+@example(asked=[0, 1, 2, 0, 3, 0, 1], room=1, shelf=2)
 @given(
     asked=st.lists(st.integers(0, 6), max_size=40), room=st.integers(1, 4), shelf=st.integers(0, 3)
 )

@@ -10,6 +10,7 @@ from texvent.errors import InputError, OutputError
 from texvent.events import EventStream
 from texvent.frames import Frame
 from texvent.sensor import SensorSize
+from texvent.view.drawing.palettes import DEFAULT_PALETTE, PALETTES
 from texvent.view.preview import PREVIEW_KINDS, Preview
 
 SIZE = SensorSize(32, 24)
@@ -47,6 +48,22 @@ def test_every_kind_of_preview_is_whole_beside_any_others(tmp_path, steps, kinds
         facts_shown = ("a bar moves right", "Found late", "1234567", events)
         wanted = ("data:image/png;base64,", *facts_shown)
         assert [one for one in wanted if one not in page] == []
+
+
+@pytest.mark.parametrize("kind", PREVIEW_KINDS)
+def test_every_option_changes_every_kind_of_preview(tmp_path, steps, kind):
+    """The title, the colours; the same options give the same file."""
+    options = [
+        {"metadata": {"prompt": "a bar"}}, {"metadata": {"prompt": "a ball"}}, {},
+        *({"palette": one} for one in sorted(PALETTES) if one != DEFAULT_PALETTE), {},
+    ]  # fmt: skip
+    written = []
+    for number, one in enumerate(options):
+        (tmp_path / str(number)).mkdir()
+        (path,) = write_preview(tmp_path / f"{number}/a", steps, kinds=(kind,), **one).paths
+        written.append(path.read_bytes())
+    assert written[2] == written[-1]
+    assert len({*written}) == len(options) - 1
 
 
 def test_of_one_frame_that_frame_is_shown(tmp_path, steps):

@@ -2,16 +2,17 @@
 
 from dataclasses import replace
 from fractions import Fraction
+from itertools import combinations, product
 
 import numpy as np
 import pytest
-from tests.scenes.hand_scenes import HandScene, MovingShape, day, moving, still
+from tests.scenes.hand_scenes import HandScene, MovingShape, day, look_at, moving, still
 
 from texvent.camera import PosedCamera
 from texvent.errors import ConfigError
 from texvent.sensor import SensorSize
 from texvent_scenes.raycast.optics import Optics
-from texvent_scenes.raycast.render import render_light
+from texvent_scenes.raycast.render import PERFECT, render, render_light
 from texvent_scenes.rendered_scene import Ground, Shape
 from texvent_scenes.rig.config import RigConfig
 from texvent_scenes.rig.shutter import (
@@ -55,9 +56,19 @@ def test_blur_of_a_moving_edge_is_a_ramp_in_linear_light() -> None:
     np.testing.assert_allclose(share, middle, atol=0.02)
 
 
-def test_a_short_exposure_is_one_instant() -> None:
-    light = expose(board(), SIZE, Shutter(0.0, 0.0, SIZE.height), 0.01)
-    np.testing.assert_array_equal(light, render_light(board(), 0.01, SIZE))
+def test_a_short_exposure_is_one_instant_drawn_as_an_image_with_the_same_options() -> None:
+    box = MovingShape(Shape.BOX, (1.0, 1.0, 1.0), moving((-1.0, 0.0, 1.0), (3.0, 0.0, 0.0)))
+    scene = HandScene((box,), lambda _: look_at((0.0, -8.0, 3.0), (0.0, 0.0, 0.0)), day())
+    shutter, drawn = Shutter(0.0, 0.0, SIZE.height), []
+    for samples, shadows, optics in product(
+        (1, 3), (False, True), (PERFECT, Optics(0.8, vignetting=True))
+    ):
+        options = {"samples": samples, "shadows": shadows, "optics": optics}
+        (frame,) = expose_frames(scene, SIZE, shutter, [100_000], **options)
+        drawn.append(render(scene, 0.1, SIZE, **options))
+        np.testing.assert_allclose(frame.pixels, drawn[-1], atol=0.51)
+    apart = [np.abs(one - other).max() for one, other in combinations(drawn, 2)]
+    assert min(apart) > 1.0
 
 
 def test_the_mean_is_of_instants_in_the_middle_of_equal_parts() -> None:

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from tests.scenes.every_row import for_every
-from tests.scenes.staged import DURATION_S, SIZE, stage
+from tests.scenes.staged import SIZE, stage
 from tests.scenes.test_short_prompts import is_right, report, staged
 
 from texvent.errors import ConfigError
@@ -139,32 +139,36 @@ def test_what_is_put_on_a_box_is_on_top_and_in_it_at_its_bottom(way, share):
     assert cube.lowest_m(1.99) == pytest.approx(low_m, abs=0.06 * box.model.height)
 
 
-def middles_of(who, kind, habitat):
-    """[times, 2, 3] where a body and an egg-shaped thing are, whose origin its habitat decides."""
+def middles_of(who, kind, thing, habitat):
+    """[times, 2, 3] where a body and a thing are, whose origin its habitat decides."""
+    size = SIZES_M[thing]
 
     def build(*, colour, scale, seed):
-        foot = 0.0 if habitat == "water" else 0.15
-        shape = ball(Material((0.5, 0.5, 0.5)), (0.0, 0.0, foot), (0.2, 0.25, 0.3))
+        foot = 0.0 if habitat == "water" else 0.5 * size[2]
+        shape = ball(Material((0.5, 0.5, 0.5)), (0.0, 0.0, foot), size)
         return ArticulatedModel([shape], is_centred=habitat == "water").scaled(scale)
 
-    noun = replace(NOUNS["box"], build=build, habitat=habitat)
+    nouns = {**NOUNS, thing: replace(NOUNS[thing], build=build, habitat=habitat)}
     said = SceneDescription(
-        objects=(SceneObject(who), SceneObject("box")),
-        relations=(IndexedRelation(kind, 0, (1,)),),
+        objects=(SceneObject(who), SceneObject(thing)),
+        relations=(IndexedRelation(*((kind, 0, (1,)) if who != "horse" else (kind, 1, (0,)))),),
         place=Place("grass", is_empty=True),
     )
-    nouns = {**NOUNS, "box": noun}
-    scene = compose_scene(said, seed=0, size=SIZE, duration_s=DURATION_S, nouns=nouns)
+    scene = compose_scene(said, seed=0, size=SIZE, duration_s=3.0, nouns=nouns)
     actors = sorted(scene.actors, key=lambda one: one.object_index)
-    found = np.array([[one.middle(t) for one in actors] for t in np.linspace(0.0, 1.9, 7)])
+    found = np.array([[one.middle(t) for one in actors] for t in np.linspace(0.0, 2.9, 9)])
     return found - found[:1, 1:] * (kind == "ride")  # what is ridden stands where it lives
 
 
+SIZES_M = {"box": (0.2, 0.25, 0.3), "hammer": (0.05, 0.04, 0.3), "mug": (0.1, 0.1, 0.12)}
 BONDS_OF_ALL = ("hold", "wear", "push", "kick", "throw", "roll", "lift", "drop", "catch", "pull",
                 "set down", "move over", "ride")  # fmt: skip
 HOLDERS = ("man", "dog", "hand", "robot arm", "forklift")
 
 
-@for_every([(who, kind) for who in HOLDERS for kind in BONDS_OF_ALL])
+@for_every(
+    [("horse", "ride", "box"), ("hand", "hold", "mug"), ("hand", "hold", "hammer")]
+    + [(who, kind, thing) for who in HOLDERS for kind in BONDS_OF_ALL for thing in SIZES_M]
+)
 def test_a_thing_is_where_its_holder_has_it_wherever_its_origin_is(row):
     np.testing.assert_allclose(middles_of(*row, "ground"), middles_of(*row, "water"), atol=1e-9)
