@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import texvent
+from texvent.api.event_camera import USED_CAPTURE
 from texvent.errors import ConfigError, InputError, TexventWarning
 from texvent.events import EventStream
 
@@ -26,6 +27,19 @@ def test_steps_have_the_options_of_a_video():
     whole = texvent.simulate(FRAMES, t_us=TIMES, progress=False, **options)
     assert len(whole)
     assert step_all(texvent.EventCamera((16, 12), **options)) == whole
+
+
+CAPTURED = {"white_level": 200.0, "fit": "stretch", "transfer": "linear"}
+
+
+@pytest.mark.parametrize("name", USED_CAPTURE)
+def test_each_option_of_frames_has_the_effect_that_it_has_on_a_video(name):
+    for sensor in [{"sensor": "8x8"}, *([{}] if name != "fit" else [])]:
+        plain = {**sensor, "simulator": "esim", "seed": 5}
+        options = {name: CAPTURED[name], **plain}
+        whole = texvent.simulate(FRAMES, t_us=TIMES, progress=False, **options)
+        assert step_all(texvent.EventCamera((16, 12), **options)) == whole
+        assert step_all(texvent.EventCamera((16, 12), **plain)) != whole
 
 
 @pytest.mark.parametrize(
