@@ -220,8 +220,8 @@ class Spacing:
                 raise NoRoomError("other distances on the same thing leave it no place")
             is_along = int(np.argmax(np.abs(off))) == frame.long
             groups = [self.groups[n] for n in pair]
-            reach = sum(_radius(group) + _row(group) * is_along for group in groups)
-            if float(np.hypot(*off)) < reach - _EXACT_M:
+            least_m = sum(_radius(group) + _row(group) * is_along for group in groups)
+            if float(np.hypot(*off)) < least_m - _EXACT_M:
                 first, second = (group.noun.name for group in groups)
                 raise NoRoomError(f"the {first} and the {second} would go through each other")
 
