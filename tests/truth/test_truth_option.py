@@ -34,20 +34,12 @@ def test_all_of_it_beside_the_events(folder, capsys):
     assert (truth.metadata["prompt"], truth.metadata["seed"]) == ("a red ball bounces", 3)
 
 
-@pytest.mark.parametrize("extension", ["h5", "npz"])
-def test_event_files_with_a_place_for_ids_hold_them(folder, capsys, extension):
-    name = f"b.{extension}"
-    words = ("-o", name, "--truth", "events")
-    assert run("generate", "a red ball bounces", *words, *QUICK) == 0
+def test_ids_have_16_bits_in_hdf5(folder, capsys):
+    assert run("generate", "a red ball bounces", "-o", "b.h5", "--truth", "events", *QUICK) == 0
     assert "left out" not in capsys.readouterr().err
-    truth, events = texvent.load_truth("b.truth"), texvent.load(name)
-    assert truth.event_instance.max() == 1
-    np.testing.assert_array_equal(events.instance, truth.event_instance)
-    np.testing.assert_array_equal(events.class_id, truth.event_class_id)
-    if extension == "h5":
-        with h5py.File(name) as file:
-            assert file["events/instance"].dtype == file["events/class_id"].dtype == np.uint16
-            np.testing.assert_array_equal(file["events/instance"][:], truth.event_instance)
+    with h5py.File("b.h5") as file:
+        assert file["events/instance"].dtype == file["events/class_id"].dtype == np.uint16
+        assert file["events/instance"][:].max() == 1
 
 
 def test_ids_go_with_their_events_and_what_cannot_hold_them_says_so(folder, capsys):

@@ -69,19 +69,10 @@ def test_a_motion_is_fitted_although_a_few_vectors_are_wild(offset, growth, seed
         assert found is None
 
 
-def test_two_layers_a_frame_at_rest_and_few_vectors_tell_no_motion_of_the_frame():
-    everywhere = np.ones((HEIGHT, WIDTH), bool)
-    flow = move([[8, 0, 0], [0, 0, 0]])
-    assert fit_motion(flow, everywhere) is not None
-    flow[:, :, :60] = 0
-    assert fit_motion(flow, everywhere) is None
-    assert fit_motion(0 * flow, everywhere) is None
-    # A zoom about a corner, which rests, is one.
+def test_a_zoom_about_a_corner_which_rests_is_a_motion_of_the_frame():
     zoom = [[0.05 * WIDTH / 2, 0.05, 0], [0.05 * HEIGHT / 2, 0, 0.05]]
-    np.testing.assert_allclose(fit_motion(move(zoom), everywhere), zoom, atol=1e-3)
-    few = np.zeros_like(everywhere)
-    few[:10] = True
-    assert fit_motion(move([[8, 0, 0], [0, 0, 0]]), few) is None
+    found = fit_motion(move(zoom), np.ones((HEIGHT, WIDTH), bool))
+    np.testing.assert_allclose(found, zoom, atol=1e-3)
 
 
 @pytest.mark.parametrize(

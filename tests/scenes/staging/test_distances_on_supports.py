@@ -103,3 +103,26 @@ def test_a_distance_for_which_there_is_no_room_is_refused(row):
     (support, *things), relation, order = row
     with pytest.raises(ConfigError, match=r"^objects\[\d\]\.relations\[1\]\.distance_m is 5, "):
         place(*put(support, *things, relation, 5.0, order=order))
+
+
+COPIED = ("bottle", "mug", "book", "plate", "candle")
+
+
+@for_every(itertools.product(COPIED, (1, 2, 3), (0.25, 0.4, 0.6), SPACED, (False, True)))
+def test_nothing_is_put_into_a_row_of_copies(row):
+    noun, count, distance_m, kind, is_row_last = row
+    on = Relation("on", ("table",))
+    first = SceneObject("mug", id="one", relations=(on,))
+    second = SceneObject(noun, relations=(on, Relation(kind, ("one",), distance_m)), count=count)
+    if not is_row_last:
+        first = SceneObject(noun, id="one", relations=(on,), count=count)
+        second = SceneObject("mug", relations=(on, Relation(kind, ("one",), distance_m)))
+    try:
+        actors = [one for one in place(SceneObject("table"), first, second) if one.object_index]
+    except ConfigError:
+        return
+    assert len(actors) == count + 1
+    for one, other in itertools.combinations(actors, 2):
+        apart = np.subtract(one.track.at(0.0).position, other.track.at(0.0).position)
+        radii = [0.5 * min(each.model.length, each.model.width) for each in (one, other)]
+        assert float(np.hypot(*apart[:2])) > sum(radii) - 1e-6

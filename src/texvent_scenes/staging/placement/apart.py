@@ -188,8 +188,7 @@ class Spacing:
                                across * body.length + along * body.width])  # fmt: skip
         if group.noun.name in PERSON_NOUNS:
             half = np.minimum(half, _PERSON_M)
-        size = max(body.length, body.width)
-        half[frame.long] += 0.7 * (len(group.models) - 1) * size
+        half[frame.long] += _row(group)
         return np.asarray(half)
 
     def _extent(
@@ -220,8 +219,11 @@ class Spacing:
             off = places[pair[0]] - places[pair[1]]
             if float(np.hypot(*(off - _step(one, frame.axes)))) > _EXACT_M:
                 raise NoRoomError("other distances on the same thing leave it no place")
-            if float(np.hypot(*off)) < sum(_radius(self.groups[n]) for n in pair) - _EXACT_M:
-                first, second = (self.groups[n].noun.name for n in pair)
+            is_along = int(np.argmax(np.abs(off))) == frame.long
+            groups = [self.groups[n] for n in pair]
+            least_m = sum(_radius(group) + _row(group) * is_along for group in groups)
+            if float(np.hypot(*off)) < least_m - _EXACT_M:
+                first, second = (group.noun.name for group in groups)
                 raise NoRoomError(f"the {first} and the {second} would go through each other")
 
 
@@ -230,6 +232,12 @@ def _radius(group: ObjectGroup) -> float:
     body = group.models[0]
     radius = 0.5 * min(body.length, body.width)
     return min(radius, _PERSON_M) if group.noun.name in PERSON_NOUNS else radius
+
+
+def _row(group: ObjectGroup) -> float:
+    """From the middle of a row of copies to that of its last one, m."""
+    body = group.models[0]
+    return 0.7 * (len(group.models) - 1) * max(body.length, body.width)
 
 
 def _shift(block: dict[int, Float64Array], by: Float64Array) -> None:
