@@ -171,11 +171,14 @@ def _make_move(draft: SceneDraft, verb: Token, move: dict[str, Any], targets: li
 
 def _keep_in_view(draft: SceneDraft, verb: Token, targets: Indices) -> None:
     """Leave it to the staged scene whether something stays in the image; a pan to it follows it."""
-    meant, persons = draft.beside(verb, 1).text, draft.find(PERSON_NOUNS)
+    after, persons = draft.tokens[verb.at + 1 :], draft.find(PERSON_NOUNS)
+    meant = next((one.text for one in after[:3] if one.text in ("it", "him", "her", "them")), "")
     known = [*draft.last.subjects, *draft.last.nearest, *range(len(draft.things))]
-    fits = [one for one in known if (one in persons) == (meant in ("him", "her"))]
-    about = targets or (fits if meant in ("it", "him", "her") else known)[:1]
-    after = draft.tokens[verb.at + 1 :]
+    fits = [one for one in known if (one in persons) == (meant != "it")] if meant else known
+    if meant == "them":
+        several = [one for one in known if draft.things[one]["count"] > 1]
+        fits = [one for one in several if one in persons] or several
+    about = targets or (fits or known)[:1]
     for token in (verb, *[one for one in after if one.is_framed][:1]):
         is_centred = not word_set("things", "centred").isdisjoint(token.text.split())
         draft.claim(token, "in image", "centre" if is_centred else "", about)

@@ -75,7 +75,9 @@ def test_high_things_that_rise_stand(text):
     ("text", "noun"),
     [("children chase a kite. The camera pans to keep it in the frame", "kite"),
      ("a dog chases a ball, the camera keeps the ball in view", "ball"),
-     ("a man throws a frisbee, the camera keeping him in the center of the frame", "man")],
+     ("a man throws a frisbee, the camera keeping him in the center of the frame", "man"),
+     ("two men spar in a ring with ropes, the camera keeping both of them in frame", "man"),
+     ("two dogs run past a fence. The camera pans, keeping them in frame", "dog")],
 )  # fmt: skip
 def test_what_is_kept_in_the_image_is_followed_and_held(text, noun):
     reading = read(text, NOUNS)
