@@ -52,6 +52,9 @@ def relate_one(draft: SceneDraft, kind: str, index: int, targets: Indices) -> bo
     is_still = all(one["kind"] == "stand" for one in thing["motions"])
     for one in small if tops and kind in SPACED and is_still else ():
         draft.relate(one, "on", tops[0])  # "a cup on a table beside a book"
+    ends = [draft.things[one] for one in targets]
+    if kind == "between" and [one["count"] for one in ends] == [1]:
+        ends[0]["count"] = 2  # "between shelves", of which one has several
     return bool(kind) and draft.relate(ridden_by(draft, index, kind), kind, targets)
 
 
