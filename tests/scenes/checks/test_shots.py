@@ -1,6 +1,7 @@
 """The camera's words: framing, viewpoint and moves, as they are staged and as they are checked."""
 
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ from tests.scenes.staged import DURATION_S, SIZE, stage, thing
 from tests.scenes.test_short_prompts import staged
 
 from texvent.camera import PosedCamera, project
+from texvent.sensor import SensorSize
 from texvent_scenes.checks.limbs import find_tiny
 from texvent_scenes.checks.shots import find_misframed
 from texvent_scenes.description import SceneDescription
@@ -188,3 +190,29 @@ def test_eye_level_is_shown_where_the_camera_or_what_hovers_is_so_high(text, is_
 )
 def test_a_person_whose_head_is_out_of_the_picture_is_noted(text, is_told):
     assert any("head of the" in one for one in staged(text)[1].notes) == is_told
+
+
+def test_what_is_followed_is_in_the_image_up_to_each_of_its_sides():
+    """Cameras are turned so that its middle comes to just inside or just outside of a side."""
+    said = Camera(moves=(CameraMove("follow"),))
+    scene = stage(thing("man", ("walk", "right")), camera=said)
+    description = SceneDescription(objects=(thing("man"),), camera=said)
+    sizes = SensorSize(160, 90), SensorSize(90, 160), SensorSize(64, 64)
+    for size, axis, (share, is_inside) in product(
+        sizes, (0, 1), ((0.9, True), (1.1, False), (-0.9, True), (-1.1, False))
+    ):
+        cameras = []
+        for time_s in TIMES:
+            forward = scene.actors[0].middle(time_s) - scene.camera(time_s).position
+            forward /= np.linalg.norm(forward)
+            right = np.cross(forward, (0.0, 0.0, 1.0))
+            right /= np.linalg.norm(right)
+            level = np.stack([right, np.cross(forward, right), forward])
+            half = 0.5 * size[axis] / size.width
+            angle = np.arctan(share * half / scene.camera(time_s).focal)
+            turned = level.copy()
+            turned[axis] = np.cos(angle) * level[axis] + np.sin(angle) * forward
+            turned[2] = np.cos(angle) * forward - np.sin(angle) * level[axis]
+            cameras.append(replace(scene.camera(time_s), rotation=turned))
+        found = find_misframed(scene, description, cameras, TIMES, size)
+        assert ("follow" not in [one.value for one in found]) == is_inside

@@ -63,7 +63,7 @@ def test_no_light_is_lost_and_what_is_uniform_stays(optics, light, world):
     np.testing.assert_allclose(passed(optics, even, world), even, rtol=1e-6)
 
 
-@pytest.mark.parametrize("optics", LENSES)
+@pytest.mark.parametrize("optics", [*LENSES, *(Optics(one) for one in (0.3, 0.55, 0.8, 1.1))])
 def test_some_pixels_are_those_of_all(optics, light, world):
     drawn = np.random.default_rng(2).random(SIZE.shape) < 0.03
     touched = optics.touched(drawn)
