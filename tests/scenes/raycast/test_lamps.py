@@ -7,6 +7,7 @@ import pytest
 from tests.scenes.raycast.intersect_reference import hit_shape_reference
 
 from texvent.sensor import SensorSize
+from texvent_scenes.raycast.lamps.gleam import lamp_gleam
 from texvent_scenes.raycast.lamps.light import (
     LONGITUDES,
     MOST_SHADOW_LAMPS,
@@ -160,3 +161,43 @@ def test_what_stands_before_a_lamp_hides_its_glow_bit_by_bit():
     assert shown[-1] == 0.0
     assert 0.3 * shown[0] < shown[4] < 0.7 * shown[0]
     assert (np.diff(shown) <= 1e-9).all()
+
+
+def gleam_reference(lamp, point, view, normal, film):
+    """One lamp on a microfacet film: D by Trowbridge and Reitz, G by Schlick, F by Schlick."""
+    base, rough, pixel = film
+    towards = lamp["place"] - point
+    distance = np.linalg.norm(towards)
+    to_lamp, to_eye = towards / distance, -view
+    half = (to_lamp + to_eye) / np.linalg.norm(to_lamp + to_eye)
+    alpha = rough + pixel + 0.5 * lamp["radius"] / distance
+    slopes = alpha**2 / (np.pi * ((normal @ half) ** 2 * (alpha**2 - 1.0) + 1.0) ** 2)
+    cosines = np.array([normal @ to_lamp, normal @ to_eye])
+    seen = cosines / (cosines * (1.0 - alpha / 2) + alpha / 2)
+    mirrored = base + (1.0 - base) * (1.0 - half @ to_eye) ** 5
+    brdf = slopes * np.prod(seen) * mirrored / (4.0 * np.prod(cosines))
+    fall = (1.0 - (distance / lamp["reach"]) ** 2) ** 2 / (distance**2 + lamp["radius"] ** 2)
+    return np.pi * brdf * fall * (normal @ to_lamp) * lamp["light"]
+
+
+def test_the_gleam_is_the_sum_over_the_lamps_that_the_point_sees():
+    rng = np.random.default_rng(4)
+    for casts in (0, 1, 3):
+        lamps = [lamp_row(tuple(rng.uniform((-4, -4, 1), (4, 4, 5))), tuple(rng.uniform(1, 3, 3)),
+                          reach=30.0, radius=0.1, casts=n < casts) for n in range(4)]  # fmt: skip
+        instant = world_at(scene_of(dark(*lamps)), 0.0, SMALL).instant[0]
+        ordered, count = order_lamps(np.concatenate(lamps), shadows=True)
+        assert count == casts
+        for lit in range(0, 2 << casts):
+            point = rng.uniform((-2, -2, 0), (2, 2, 0))
+            view = rng.uniform((-1, 1, -1), (1, 2, -0.2))
+            view /= np.linalg.norm(view)
+            normal, film = np.array([0.0, 0.0, 1.0]), (0.02, rng.uniform(0.05, 0.4), 0.01)
+            seen = [n >= casts or bool(lit >> (n + 1) & 1) for n in range(4)]
+            expected = sum(
+                gleam_reference(one, point, view, normal, film)
+                for one, is_seen in zip(ordered, seen, strict=True)
+                if is_seen
+            )
+            found = lamp_gleam(instant, tuple(point), tuple(view), tuple(normal), film, lit)
+            np.testing.assert_allclose(found, expected + np.zeros(3), rtol=1e-5)
