@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from texvent_scenes.description import STANDING
@@ -13,6 +14,15 @@ from texvent_scenes.spec.scene import Direction, Motion, SceneObject
 _BY_TURNS = frozenset({"work", "spin", "swing", "move", "stand"})
 """Motions of what works and rests at stated times."""
 _SIDES = ("left", "right")
+_WAYS_DEG: Mapping[Direction | None, float] = {
+    "right": 0.0,
+    "away": 90.0,
+    "left": 180.0,
+    "towards": 270.0,
+}
+"""Direction of goods → its heading."""
+_ALONG = 0.6
+"""Least cosine between the way of a belt and a direction that is said of it."""
 AT_REST = Motion("stand", start_s=0.0)
 """Rest that is said of what works otherwise."""
 
@@ -74,6 +84,37 @@ def works_by_turns(motions: Sequence[Motion], noun: Noun) -> bool:
         return False
     are_fit = all(one.kind in _BY_TURNS and is_work(one, noun) for one in motions)
     return are_fit and any(one.kind != "stand" for one in motions)
+
+
+def aligned(motions: Sequence[Motion], noun: Noun, heading_deg: float | None) -> tuple[Motion, ...]:
+    """Motions of what works; a belt with a heading runs forwards or backwards, to the stated side.
+
+    A leg without a direction runs as the first one does; a direction across the belt says nothing.
+    """
+    if heading_deg is None or not _is_machine(noun):
+        return tuple(motions)
+    works = [one.kind != "stand" and is_work(one, noun) for one in motions]
+    senses = [_sense(one.direction, heading_deg) for one in motions]
+    first = next((one for one, is_on in zip(senses, works, strict=True) if is_on), None)
+    usual: Direction = first or "counter-clockwise"
+    return tuple(
+        replace(one, kind="work" if one.kind == "move" else one.kind, direction=sense or usual)
+        if is_on
+        else one
+        for one, sense, is_on in zip(motions, senses, works, strict=True)
+    )
+
+
+def _sense(direction: Direction | None, heading_deg: float) -> Direction | None:
+    """The sense of a belt with a heading that carries goods in a direction, if one does."""
+    if direction in ("clockwise", "counter-clockwise"):
+        return direction
+    if direction not in _WAYS_DEG:
+        return None
+    along = math.cos(math.radians(_WAYS_DEG[direction] - heading_deg))
+    if abs(along) < _ALONG:
+        return None
+    return "clockwise" if along < 0.0 else "counter-clockwise"
 
 
 def list_work(motions: Sequence[Motion], noun: Noun) -> tuple[Motion, ...]:

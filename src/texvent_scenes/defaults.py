@@ -12,6 +12,7 @@ from dataclasses import replace
 from texvent_scenes.default_places import AFLOAT_MOTIONS, AT_HAND, choose_place
 from texvent_scenes.default_work import (
     AT_REST,
+    aligned,
     is_work,
     list_work,
     stands_still,
@@ -70,7 +71,9 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     objects = tuple(
         replace(
             one,
-            motions=(AT_REST,) if n in at_rest else decide_motions(one.motions, nouns[one.noun]),
+            motions=(AT_REST,)
+            if n in at_rest
+            else decide_motions(one.motions, nouns[one.noun], one.heading_deg),
         )
         for n, one in enumerate(description.objects)
     )
@@ -301,8 +304,11 @@ def _strike_far(description: SceneDescription) -> SceneDescription:
     return _change(description, new)
 
 
-def decide_motions(motions: Sequence[Motion], noun: Noun) -> tuple[Motion, ...]:
+def decide_motions(
+    motions: Sequence[Motion], noun: Noun, heading_deg: float | None = None
+) -> tuple[Motion, ...]:
     """Motions as they are staged, of one object by itself."""
+    motions = aligned(motions, noun, heading_deg)
     if works_by_turns(motions, noun):
         return list_work(motions, noun)
     later = [_at_rate(one, noun) for one in motions[1:]]

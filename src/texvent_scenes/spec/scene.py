@@ -162,8 +162,8 @@ class SceneObject:
     and comes down to the ground."""
     heading_deg: Annotated[float, Between(-360.0, 360.0)] | None = None
     """Heading, degrees anticlockwise seen from above: 0 = right (x), 90 = away (y); it takes the
-    place of a motion's direction. Left out, boards and calibration targets at rest face the
-    camera."""
+    place of a motion's direction of travel; what spins begins at it. Left out, boards and
+    calibration targets at rest face the camera."""
 
     @property
     def motion(self) -> Motion | None:

@@ -44,6 +44,7 @@ from texvent_scenes.staging.tracks.choose_track import choose_track
 from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2
 from texvent_scenes.staging.tracks.motion_plan import plan_motion
 from texvent_scenes.staging.tracks.phases import PATH_KINDS, YAWS, fits_in_hand, rests_in_hand
+from texvent_scenes.staging.tracks.track import TO_CAMERA
 
 RESTS = frozenset({"stand", "stand open", "stand closed", "sit", "lie", "hang", "move"})
 """Motions that say no more than a noun does anyway."""
@@ -98,7 +99,7 @@ class _Body:
         self.noun, self.is_held = noun, is_held
 
     def _put_on(self, one: SceneObject, duration_s: float) -> Actor:
-        motions = decide_motions(one.motions, self.noun) or (STANDING,)
+        motions = decide_motions(one.motions, self.noun, one.heading_deg) or (STANDING,)
         rng, model = np.random.default_rng(0), _model(self.noun)
         plan = plan_motion(
             motions, self.noun, model, duration_s, rng, one.height_m, one.heading_deg
@@ -106,6 +107,11 @@ class _Body:
         track = choose_track(plan, model, (0.0, 0.0, one.height_m or 1.0), rng)
         crosses = motions[0].direction == "across"
         return Actor(0, self.noun, model, track, True, 1, goes_across=crosses)
+
+    def shows_front(self, one: SceneObject) -> bool:
+        """Whether its front is at the camera at time 0."""
+        track = self._put_on(one, _USUAL_S).track
+        return track.is_facing or abs(math.remainder(track.at(0.0).yaw - TO_CAMERA, math.tau)) < 0.1
 
     def differ(self, one: SceneObject, other: SceneObject) -> bool:
         """Whether what is drawn of two objects is not the same."""
@@ -127,10 +133,11 @@ class _Body:
         usual = Motion("stand")
         without = _with(one, number, **{name: getattr(usual, name)})
         given = getattr(one.motions[number], name)
-        is_heading = name == "direction" and one.motions[number].kind != "turn"
-        is_headed = is_heading and one.heading_deg is not None
-        probes = (given,) if is_headed else _probes(given)
-        if name == "direction" and self.noun.is_working:  # it may go to and fro along one way
+        probes = _probes(given)
+        is_turn = one.motions[number].kind == "turn"
+        is_headed = one.heading_deg is not None and not is_turn
+        # It may go to and fro along one way, or turn to either side of it.
+        if name == "direction" and (self.noun.is_working or is_headed):
             probes = next((pair for pair in _OPPOSITE if given in pair), probes)
         return any(self.differ(_with(one, number, **{name: probe}), without) for probe in probes)
 
@@ -153,7 +160,7 @@ class _Body:
         motion = one.motions[number]
         if motion.kind == "break":
             return self.noun.name in trait_values("pieces")
-        decided = decide_motions(one.motions, self.noun)
+        decided = decide_motions(one.motions, self.noun, one.heading_deg)
         works = self.noun.is_working and decided[0].kind == "work"
         if not number and (motion.kind in RESTS or works):
             return True
@@ -277,7 +284,9 @@ def _idle_motions(where: str, one: SceneObject, body: _Body) -> Iterator[Idle]:
             yield Idle(f"{path}.kind", f"{why} at speed_m_s, 'slide' moves all of it")
             continue
         if not body.does(one, number):
+            is_aside = motion.kind == "move" and None not in (motion.direction, one.heading_deg)
             is_usual = motion.kind in RESTS
+            is_usual &= not is_aside or body.reads(one, number, "direction")
             yield Idle(f"{path}.kind", _why_not_done(body, one, motion.kind), is_usual)
             continue
         for each in fields(Motion):
@@ -291,12 +300,18 @@ def _idle_motions(where: str, one: SceneObject, body: _Body) -> Iterator[Idle]:
                 why = _who_reads(body, one, number, each.name)
                 yield Idle(f"{path}.{each.name}", why, _is_usual(body, one, number, each.name))
     if one.heading_deg is not None:
-        bare = replace(one, heading_deg=None)
-        turned = (replace(one, heading_deg=angle) for angle in (one.heading_deg, 17.0, 101.0))
-        if not any(body.differ(each, bare) for each in turned):
-            is_usual = abs(math.remainder(one.heading_deg + 90.0, 360.0)) < 1e-9
-            why = f"a {one.noun} shows its front to the camera then: its heading is -90"
-            yield Idle(f"{where}.heading_deg", why, is_usual)
+        yield from _idle_heading(f"{where}.heading_deg", one, one.heading_deg, body)
+
+
+def _idle_heading(path: str, one: SceneObject, said_deg: float, body: _Body) -> Iterator[Idle]:
+    bare = replace(one, heading_deg=None)
+    turned = (replace(one, heading_deg=angle) for angle in (said_deg, 17.0, 101.0))
+    if any(body.differ(each, bare) for each in turned):
+        return
+    why = f"the motion of a {one.noun} decides where it heads"
+    if body.shows_front(one):
+        why = f"a {one.noun} shows its front to the camera then: its heading is -90"
+    yield Idle(path, why, abs(math.remainder(said_deg + 90.0, 360.0)) < 1e-9)
 
 
 def _list_held(scene: Scene, ids: Sequence[str]) -> Iterator[tuple[str, str]]:
@@ -355,7 +370,8 @@ def _who_reads(body: _Body, one: SceneObject, number: int, name: str) -> str:
     motion = one.motions[number]
     if name == "pace" and motion.speed_m_s is not None:
         return "speed_m_s takes its place; leave one of them out"
-    if name == "direction" and one.heading_deg is not None and motion.kind != "turn":
+    bare = replace(one, heading_deg=None)
+    if name == "direction" and bare != one and body.reads(bare, number, name):
         return "heading_deg takes its place; leave one of them out"
     if name == "direction" and motion.kind in _UPRIGHT:
         straight = f"{shown(motion.kind)} of a {one.noun} goes straight {_UPRIGHT[motion.kind]}"

@@ -4,8 +4,9 @@ import itertools
 import math
 
 import numpy as np
+import pytest
 from tests.scenes.every_row import for_every
-from tests.scenes.staged import SIZE
+from tests.scenes.staged import SIZE, place
 
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.tables import nouns_with
@@ -108,3 +109,20 @@ def test_a_lamp_that_blinks_does_not_make_it_night_in_a_file(row):
         said = describe_scene(Scene(objects=(one,), place=PLACE, light=light), NOUNS)
         assert said.light.kind == light.kind
     assert understand("an LED blinks", NOUNS).light.kind == "night"
+
+
+@for_every(itertools.product(
+    ("box", "car", "turntable", "drone", "dog", "tree", "boat", "wheel"), (0, 30, 90, -135, 180),
+    ("clockwise", "counter-clockwise", "left", None), (None, 0.4), (1.0, 3.0),
+))  # fmt: skip
+def test_what_spins_has_its_heading_at_time_0_and_its_sense(row):
+    noun, heading, way, start_s, pace = row
+    motions = (Motion("spin", way, pace=pace, start_s=start_s),)
+    one = SceneObject(noun, heading_deg=heading, motions=motions)
+    describe_scene(Scene(objects=(one,)), NOUNS)
+    (actor,), (bare,) = place(one), place(SceneObject(noun, motions=motions))
+    assert math.remainder(actor.track.at(0.0).yaw - math.radians(heading), math.tau) == (
+        pytest.approx(0.0, abs=1e-6))  # fmt: skip
+    turns = [each.track.at(1.1).yaw - each.track.at(1.0).yaw for each in (actor, bare)]
+    assert turns[0] == pytest.approx(turns[1], abs=1e-6)
+    assert noun == "wheel" or turns[0] * (-1.0 if way == "clockwise" else 1.0) > 0.1

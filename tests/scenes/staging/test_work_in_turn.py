@@ -1,6 +1,7 @@
 """What works or switches does so at stated times; belts take along what is on them."""
 
 import itertools
+import math
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
 from texvent_scenes.scene_input import describe_scene
 from texvent_scenes.spec.scene import Motion, Relation, Scene, SceneObject
+from texvent_scenes.staging.tracks.phases import YAWS
 
 WORKING = sorted(one.name for one in NOUNS.values() if one.is_working)
 BELTS = sorted(trait_values("belt speed").keys() - nouns_with("flat pattern"))
@@ -96,6 +98,35 @@ def test_a_belt_runs_back_with_what_is_on_it(row):
     x = [actor.track.at(t).position[0] for t in (0.0, 1.0, 1.5, 2.0)]
     sign = SIGNS[there]
     np.testing.assert_allclose(np.diff(x), [sign * speed, 0.0, -sign * speed], atol=1e-9)
+
+
+WAYS = ("left", "right", "towards", "away", None)
+LEGS = [(Motion(kind, way),) for kind in ("work", "move") for way in WAYS]
+LEGS += [tuple(Motion("work", way, start_s=float(n) if n else None) for n, way in enumerate(ways))
+         for count in (2, 3) for ways in [
+             each for each in itertools.product(WAYS[:4], repeat=count)
+             if all(a != b for a, b in itertools.pairwise(each))][::2]]  # fmt: skip
+
+
+@for_every(itertools.product(BELTS, (0, 35, 90, 180, 270, None), LEGS))
+def test_a_belt_with_a_heading_carries_goods_where_it_is_said_or_is_refused(row):
+    belt, heading, legs = row
+    own = SceneObject(belt, heading_deg=heading, motions=legs)
+    on = SceneObject("mug", relations=(Relation("on", (belt,)),))
+    yaws = [YAWS[one.direction] for one in legs if one.direction]
+    if any(abs(math.cos(yaw - math.radians(heading or 0.0))) < 0.6 for yaw in yaws):
+        with pytest.raises(ConfigError, match="has no effect"):
+            describe_scene(Scene(objects=(own, on)), NOUNS)
+        return
+    if {"towards", "away"} & {one.direction for one in legs if one.kind == "move"}:
+        return
+    describe_scene(Scene(objects=(own, on)), NOUNS)
+    _, actor = place(own, on, duration_s=3.0)
+    for number, one in enumerate(legs):
+        begin, end = (actor.track.at(number + t).position[:2] for t in (0.1, 0.4))
+        yaw = YAWS.get(one.direction)
+        assert math.dist(begin, end) > 0.1
+        assert yaw is None or np.subtract(end, begin) @ (math.cos(yaw), math.sin(yaw)) > 0.06
 
 
 @for_every(itertools.product(WORKING, (0.5, 2.0), (0.3, 1.1)))

@@ -155,7 +155,7 @@ def _spin(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Track:
     usual = 2.0 * math.pi * sign * SPIN_RATE_HZ
     turn = Term(plan.spin_axis, drift=usual * plan.motion.pace, gain=usual * _gain(plan))
     if plan.spin_axis == "yaw":
-        return replace(steady(home, phase), terms=(turn,))
+        return replace(steady(home, plan.yaw if plan.is_headed else phase), terms=(turn,))
     lift = 0.0
     if plan.is_facing:
         lift = spin_lift(model)

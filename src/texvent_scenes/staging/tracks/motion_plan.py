@@ -75,6 +75,8 @@ class MotionPlan:
     """Time of the parts of what works and rests in turn."""
     is_laid: bool = False
     """Whether a thing that usually stands lies on its side."""
+    is_headed: bool = False
+    """Whether its heading at time 0 is stated."""
 
     @property
     def is_path(self) -> bool:
@@ -152,6 +154,7 @@ def plan_motion(
         motion, yaw, speed, duration_s, is_facing=is_facing, start_m=start_m,
         radius_m=_rolling_radius(model) if motion.kind == "roll" and not is_wheeled else 0.0,
         spin_axis="roll" if is_facing else axle, is_laid=is_tall and motion.kind == "lie", act=act,
+        is_headed=heading_deg is not None,
     )  # fmt: skip
     is_straight = goes_straight_up(motion, noun)
     is_skid = motion.kind == "slide" and noun.motion == "drive"
