@@ -53,6 +53,9 @@ _TO_CAMERA = -0.5 * math.pi
 _WIDE_M = 0.8
 """Size from which on a goal is put a quarter turn away from where a thing is taken."""
 _STEPS, _ROUNDS = 33, 5
+_STEP_S, _STILL_M = 0.05, 1e-6
+_ACTS_S = np.arange(-1.5, 1.5, _STEP_S)
+"""Instants of an act, s after the contact, at which its hand is looked for; least move of that."""
 
 
 @dataclass(frozen=True)
@@ -75,6 +78,20 @@ class _Plan:
         pose = Pose(0.0, 0.0, 0.0, self.activity, act_s=act_s, grips=(("shift", settings),))
         return locate(self.machine.model, "hands", pose)
 
+    def first_move_s(self) -> float:
+        """When its hand begins to move, s after the contact."""
+        half = 0.5 * sum(self.gripper.reach)
+        settings = (half, half, self.gripper.turn)
+        rest = self.hand(float(_ACTS_S[0]), settings)
+        return next(
+            (
+                float(one)
+                for one in _ACTS_S
+                if np.abs(self.hand(float(one) + _STEP_S, settings) - rest).max() > _STILL_M
+            ),
+            0.0,
+        )
+
     def solve(self, height_m: float, act_s: float, place: int) -> float:
         """The setting that brings the hand to a height above the machine's foot, or closest."""
         low, high = self.gripper.reach
@@ -95,7 +112,7 @@ def _settings(value: float, place: int, turn: float) -> tuple[float, float, floa
 def grip(
     kind: str, machine: Actor, things: Sequence[Actor], duration_s: float, *,
     support: Actor | None = None, goal: Actor | None = None, is_turned: bool = True,
-    left: Left = "in",
+    left: Left = "in", begin_s: float | None = None,
 ) -> tuple[Actor, list[Actor], Actor | None]:  # fmt: skip
     """The machine, the things and the goal of an act.
 
@@ -108,15 +125,19 @@ def grip(
         goal: what it is set down on or in, which is put there.
         is_turned: whether the machine may be turned, its side to the camera.
         left: in a goal that has a rim, on it, or on a pile of the others, which it bears.
+        begin_s: when it begins to move for that, s; left out, the length of the clip decides.
     """
     row = gripper_of(machine.noun.name)
     if kind == "hold":
         return *_carry(machine, row, things[0]), goal
     if goal is not None and goal.size_m > _WIDE_M:
         row = replace(row, turn=math.copysign(0.5 * math.pi, row.turn))
-    if support is None and is_turned:
-        machine = moving(machine, steady(machine.track.at(0.0).position, 0.0))
+    if is_turned:
+        yaw = 0.0 if support is None else _TO_CAMERA
+        machine = moving(machine, steady(machine.track.at(0.0).position, yaw))
     plan = _Plan(machine, row, kind, _contact_s(kind, duration_s), left)
+    if begin_s is not None:
+        plan = replace(plan, contact_s=begin_s - plan.first_move_s())
     first, *others = things
     level_m = machine.track.at(0.0).position[2]
     pick = 0.0
@@ -164,10 +185,10 @@ def _hand_height(row: Gripper, thing: Actor, low_m: float) -> float:
 def _placed_at(machine: Actor, thing: Actor, hand: Affine, time_s: float) -> Actor:
     """The machine behind a thing, whose place then is that of its hand."""
     x, y, _ = thing.middle(time_s)
-    off = rotation(_TO_CAMERA, 0.0, 0.0) @ hand[:, 3]
-    level_m = machine.track.at(0.0).position[2]
-    place = (float(x - off[0]), float(y - off[1]), level_m)
-    return replace(machine, track=replace(machine.track, start=place, yaw=_TO_CAMERA))
+    home = machine.track.at(0.0)
+    off = rotation(home.yaw, 0.0, 0.0) @ hand[:, 3]
+    place = (float(x - off[0]), float(y - off[1]), home.position[2])
+    return moving(machine, steady(place, home.yaw))
 
 
 def _at_hand(plan: _Plan, thing: Actor, hand: Affine, low_m: float) -> Track:

@@ -49,6 +49,7 @@ def perform_grip(
     who = copies.get(act.subject, [])[:1]
     if not (who and things):
         return
+    said = description.objects[act.subject]
     below = _list_near(act, description.relations, copies)
     is_stacked = any(one.kind == "stack" and one.subject in act.targets
                      for one in description.claims)  # fmt: skip
@@ -63,7 +64,7 @@ def perform_grip(
             act.kind, cast[who[0]], [cast[n] for n in things], duration_s,
             support=None if support is None else cast[support],
             goal=None if goal is None else cast[goal],
-            is_turned=description.objects[act.subject].heading_deg is None, left=left,
+            is_turned=said.heading_deg is None, left=left, begin_s=_begin_s(said),
         )  # fmt: skip
 
     machine, handled, put = perform()
@@ -78,6 +79,12 @@ def perform_grip(
     cast.update({who[0]: machine, **dict(zip(things, handled, strict=True))})
     if goal is not None and put is not None:
         cast[goal] = put
+
+
+def _begin_s(machine: SceneObject) -> float | None:
+    """When its motions have it begin its act, s; None: they say no time."""
+    works = (one.start_s for one in machine.motions if one.kind != "stand")
+    return next((one for one in works if one is not None), None)
 
 
 def _shifted(one: Actor, off: Float64Array) -> Actor:

@@ -1,0 +1,67 @@
+"""Acts of machines' hands: they begin at the time of their motion, as the machine is headed."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+from tests.scenes.every_row import for_every
+from tests.scenes.staged import place
+
+from texvent_scenes.models.tables import trait_values
+from texvent_scenes.spec.scene import Motion, Relation, SceneObject
+
+ACTS = [(noun, act) for noun, row in trait_values("gripper").items()
+        for act in row["acts"] if act != "hold"]  # fmt: skip
+THINGS = {"robot arm": "box", "forklift": "pallet"}
+CLIP_S = 4.0
+
+
+def act(noun, kind, *motions, is_borne=False, **fields):
+    """Bodies of an act by their names: the machine, the thing, and what that is on or gets to."""
+    bears = (Relation("on", ("table",)),) if is_borne else ()
+    done = (Relation(kind, ("thing",)),)
+    bodies = (
+        SceneObject(noun, id="machine", motions=motions, relations=done, **fields),
+        SceneObject(THINGS[noun], id="thing", size=0.5, relations=bears),
+        *[SceneObject("table", id="table", position_m=(1.0, 0.5))] * is_borne,
+    )
+    found = place(*bodies, duration_s=CLIP_S)
+    return {bodies[one.object_index].id: one for one in found}
+
+
+def first_move_s(actor):
+    """When the hand leaves where it is at first, or the body does."""
+    times = np.arange(0.0, CLIP_S, 0.05)
+    places = [(*actor.anchor("hands", float(t))[:, 3], *actor.middle(float(t))) for t in times]
+    moved = np.abs(np.subtract(places, places[0])).max(axis=1) > 1e-6
+    return float(times[np.argmax(moved)]) if moved.any() else math.inf
+
+
+@for_every(itertools.product(ACTS, (0.4, 0.9, 1.3), (False, True), (False, True)))
+def test_a_machine_begins_its_act_at_the_stated_time(row):
+    (noun, kind), start_s, is_first, is_borne = row
+    if is_borne and (kind != "lift" or noun == "forklift"):
+        return
+    rest = [Motion("stand")] * is_first
+    found = act(noun, kind, *rest, Motion("work", start_s=start_s), is_borne=is_borne)
+    assert first_move_s(found["machine"]) == pytest.approx(start_s, abs=0.11)
+    thing = found["thing"]
+    if kind != "set down":
+        assert np.allclose(thing.middle(0.0), thing.middle(start_s), atol=1e-6)
+    assert not np.allclose(thing.middle(0.0), thing.middle(CLIP_S - 0.01), atol=0.05)
+
+
+@for_every(itertools.product(ACTS, (None, -140.0, 0.0, 60.0), (False, True)))
+def test_a_machine_is_headed_as_stated_and_has_the_thing_before_it(row):
+    (noun, kind), heading_deg, is_borne = row
+    if is_borne and (kind != "lift" or noun == "forklift"):
+        return
+    found = act(noun, kind, heading_deg=heading_deg, is_borne=is_borne)
+    machine, thing = found["machine"], found["thing"]
+    if heading_deg is not None:
+        turned = math.remainder(machine.track.at(0.0).yaw - math.radians(heading_deg), math.tau)
+        assert turned == pytest.approx(0.0, abs=1e-6)
+    gaps = [np.linalg.norm(machine.anchor("hands", t)[:, 3] - thing.middle(t))
+            for t in np.arange(0.0, CLIP_S, 0.05)]  # fmt: skip
+    assert min(gaps) < 0.6 * thing.size_m
