@@ -2,12 +2,14 @@
 
 import itertools
 import math
+import re
 
 import numpy as np
 import pytest
 from tests.scenes.every_row import for_every
 from tests.scenes.staged import place
 
+from texvent.errors import ConfigError
 from texvent_scenes.models.tables import trait_values
 from texvent_scenes.spec.scene import Motion, Relation, SceneObject
 
@@ -65,3 +67,51 @@ def test_a_machine_is_headed_as_stated_and_has_the_thing_before_it(row):
     gaps = [np.linalg.norm(machine.anchor("hands", t)[:, 3] - thing.middle(t))
             for t in np.arange(0.0, CLIP_S, 0.05)]  # fmt: skip
     assert min(gaps) < 0.6 * thing.size_m
+
+
+def lift(noun, machine_m, thing_m, bearer, heading_deg=None):
+    """The machine and what it lifts, of what is on a thing or on the ground; None: left open."""
+    on = (Relation("on", ("bearer",)),) if bearer else ()
+    bodies = (
+        SceneObject(noun, id="machine", relations=(Relation("lift", ("thing",)),),
+                    position_m=machine_m, heading_deg=heading_deg),
+        SceneObject(THINGS[noun], id="thing", size=0.5, relations=on, position_m=thing_m),
+        *[SceneObject(bearer, id="bearer", heading_deg=0.0, position_m=thing_m)] * bool(bearer),
+    )  # fmt: skip
+    found = {one.object_index: one for one in place(*bodies)}
+    return found[0], found[1]
+
+
+def check_lift(machine, thing, machine_m, thing_m):
+    """Both are where they are stated, and the hand gets to the thing and takes it up."""
+    for one, at in ((machine, machine_m), (thing, thing_m)):
+        if at is not None:
+            np.testing.assert_allclose(one.track.at(0.0).position[:2], at, atol=0.03)
+    reached = [np.linalg.norm(machine.anchor("hands", t)[:, 3] - thing.middle(t))
+               for t in np.arange(0.0, 2.0, 0.05)]  # fmt: skip
+    assert min(reached) < 0.6 * thing.size_m
+    assert thing.middle(1.99)[2] > thing.middle(0.0)[2] + 0.1
+
+
+@for_every(itertools.product(
+    [("robot arm", "table"), ("robot arm", ""), ("robot arm", "stool"), ("forklift", "")],
+    (0.6, 1.2, 3.0), (-2.0, 0.4), (None, 130.0),
+))  # fmt: skip
+def test_a_stated_machine_reaches_a_stated_thing_or_says_from_where_it_does(row):
+    (noun, bearer), off_m, angle, heading_deg = row
+    thing_m = (0.7, -0.4)
+    machine_m = (thing_m[0] + off_m * math.cos(angle), thing_m[1] + off_m * math.sin(angle))
+    try:
+        found = lift(noun, machine_m, thing_m, bearer, heading_deg)
+    except ConfigError as error:
+        text = str(error)
+        said = re.search(r"has it (.+) to (.+) m away; it can be \[(.+), (.+)\]; else", text)
+        near_m, far_m, x, y = map(float, said.groups())
+        assert text.startswith("objects[0].position_m is [")
+        assert not near_m + 0.05 < off_m < far_m - 0.05 or noun == "forklift"
+        for own, other in (((x, y), thing_m), (None, thing_m), (machine_m, None)):
+            check_lift(*lift(noun, own, other, bearer, heading_deg), own, other)
+    else:
+        check_lift(*found, machine_m, thing_m)
+        yaw = found[0].track.at(0.0).yaw
+        assert heading_deg is None or yaw == pytest.approx(math.radians(heading_deg))
