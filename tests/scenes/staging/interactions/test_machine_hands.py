@@ -11,6 +11,7 @@ from tests.scenes.staged import place
 
 from texvent.errors import ConfigError
 from texvent_scenes.models.tables import trait_values
+from texvent_scenes.spec.data import HANDLED
 from texvent_scenes.spec.scene import Motion, Relation, SceneObject
 
 ACTS = [(noun, act) for noun, row in trait_values("gripper").items()
@@ -115,3 +116,23 @@ def test_a_stated_machine_reaches_a_stated_thing_or_says_from_where_it_does(row)
         check_lift(*found, machine_m, thing_m)
         yaw = found[0].track.at(0.0).yaw
         assert heading_deg is None or yaw == pytest.approx(math.radians(heading_deg))
+
+
+@for_every(itertools.product(("man", "woman", "hand", "dog"), sorted(HANDLED), (False, True)))
+def test_who_handles_a_thing_comes_to_its_stated_place_or_the_file_is_refused(row):
+    noun, kind, is_borne = row
+    on = (Relation("on", ("table",)),) if is_borne else ()
+    bodies = (
+        SceneObject(noun, relations=(Relation(kind, ("mug",)),)),
+        SceneObject("mug", position_m=(0.5, 0.3), relations=on),
+        *[SceneObject("table", position_m=(0.5, 0.3))] * is_borne,
+    )
+    try:
+        found = place(*bodies)
+    except ConfigError as error:
+        assert (kind, noun == "hand" or is_borne) == ("lift", True)
+        assert re.search(r"^objects\[1\]\.position_m is .*has it \S+ m (higher|lower)", str(error))
+    else:
+        (mug,) = (one for one in found if one.object_index == 1)
+        np.testing.assert_allclose(mug.track.at(0.0).position[:2], (0.5, 0.3), atol=0.02)
+        assert kind != "lift" or not is_borne
