@@ -229,6 +229,8 @@ class Gripper:
     """Greatest width of a thing, m."""
     is_below: bool = False
     """Whether the hand is below the thing, not about its middle."""
+    bend: tuple[float, float] = (0.0, 0.0)
+    """Least and greatest turn of the hand by which it reaches nearer or further, rad."""
 
 
 def gripper_of(noun: str) -> Gripper:

@@ -22,7 +22,7 @@ from typing import Any
 
 Key = tuple[float, tuple[float, ...]]
 """A time, s, and the values then."""
-ROWS = frozenset({"hips", "tool", "hand", "elbow", "swing", "foot", "knee", "bent", "shift"})
+ROWS = frozenset({"hips", "tool", "hand", "elbow", "swing", "foot", "knee", "bent", "shift", "aim"})
 """Last words of the channels that are rows of numbers; others are one number."""
 _DIRECTIONS: Mapping[str, tuple[float, ...]] = {"down": (-0.2, 0.5, -1.0), "out": (-0.3, 1.0, -0.5)}
 """Name of a direction in which an elbow usually points → forward, outward, up."""

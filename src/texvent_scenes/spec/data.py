@@ -51,6 +51,8 @@ ACTED = frozenset(
 )
 """Relations in which the subject moves its target."""
 
+HANDLED = frozenset(("lift", "move over", "set down", "drop", "throw", "roll", "catch"))
+"""Acts whose target is where the hands of the subject have it, or comes from there."""
 SENT = ("kick", "throw", "roll", "hit")
 """Those after which the target goes on by itself."""
 

@@ -6,6 +6,7 @@ at which it takes a thing, to that at which it leaves it, and between both place
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -28,10 +29,11 @@ from texvent_scenes.models.tables import trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor, size_of
 from texvent_scenes.staging.interactions.holding import moving
-from texvent_scenes.staging.tracks.keys import Key
+from texvent_scenes.staging.tracks.keys import Key, Vector
 from texvent_scenes.staging.tracks.track import (
     Attachment,
     BodyState,
+    Grips,
     Term,
     Track,
     attached,
@@ -52,7 +54,19 @@ the last instant at which what is moved is taken."""
 _TO_CAMERA = -0.5 * math.pi
 _WIDE_M = 0.8
 """Size from which on a goal is put a quarter turn away from where a thing is taken."""
-_STEPS, _ROUNDS = 33, 5
+_STEPS, _ROUNDS, _SEARCHED = 33, 5, (25, 5, 5, 5)
+_STEP_S, _STILL_M, _REACHED_M = 0.05, 1e-6, 0.03
+_ACTS_S = np.arange(-1.5, 1.5, _STEP_S)
+"""Instants of an act, s after the contact, at which its hand is looked for; least move of that;
+most that is left of its way to a thing."""
+
+
+class OutOfReachError(Exception):
+    """A thing is not where a machine's hand gets, which is at two distances and between them."""
+
+    def __init__(self, near_m: float, far_m: float, way_rad: float) -> None:
+        super().__init__(near_m, far_m)
+        self.near_m, self.far_m, self.way_rad = near_m, far_m, way_rad
 
 
 @dataclass(frozen=True)
@@ -65,6 +79,8 @@ class _Plan:
     contact_s: float
     left: Left
     """Where the thing is left."""
+    aim: Vector = (0.0, 0.0, 0.0)
+    """Turns of the hand where it takes and where it leaves a thing, and of all of the machine."""
 
     @property
     def activity(self) -> str:
@@ -72,8 +88,53 @@ class _Plan:
 
     def hand(self, act_s: float, settings: tuple[float, float, float]) -> Affine:
         """Axes of the hand in body coordinates, at a time since the contact."""
-        pose = Pose(0.0, 0.0, 0.0, self.activity, act_s=act_s, grips=(("shift", settings),))
+        pose = Pose(0.0, 0.0, 0.0, self.activity, act_s=act_s, grips=self.grips(settings))
         return locate(self.machine.model, "hands", pose)
+
+    def grips(self, settings: tuple[float, float, float]) -> Grips:
+        """Channels of its joints."""
+        return (("shift", settings), *[("aim", self.aim)] * any(self.aim))
+
+    def first_move_s(self) -> float:
+        """When its hand begins to move, s after the contact."""
+        half = 0.5 * sum(self.gripper.reach)
+        settings = (half, half, self.gripper.turn)
+        rest = self.hand(float(_ACTS_S[0]), settings)
+        return next(
+            (
+                float(one)
+                for one in _ACTS_S
+                if np.abs(self.hand(float(one) + _STEP_S, settings) - rest).max() > _STILL_M
+            ),
+            0.0,
+        )
+
+    def aimed_rad(self, turn: float) -> float:
+        """Angle by which a setting turns all of it."""
+        x, y = replace(self, aim=(0.0, 0.0, 0.1 * turn)).hand(0.0, (0.0, 0.0, 0.0))[:2, 3]
+        return 10.0 * math.atan2(float(y), float(x))
+
+    def search(
+        self, ahead_m: float, up_m: float
+    ) -> tuple[float, float, tuple[float, float, float]]:  # fmt: skip
+        """Nearest and furthest place of the hand at a height, and how it gets closest to one.
+
+        Returns:
+            Both distances, m; the shift, the bend and what is left of the way, m.
+        """
+        spans = [self.gripper.reach, self.gripper.bend]
+        near_m, far_m, best = math.inf, -math.inf, (0.0, 0.0, math.inf)
+        for steps in _SEARCHED:
+            axes = [np.linspace(*span, steps if span[1] > span[0] else 1) for span in spans]
+            for shifted, bent in itertools.product(*axes):
+                bend = (float(bent), 0.0, 0.0)
+                hand = replace(self, aim=bend).hand(0.0, (float(shifted), 0.0, 0.0))[:, 3]
+                off = math.hypot(hand[0] - ahead_m, hand[2] - up_m)
+                best = min(best, (float(shifted), bend[0], off), key=lambda one: one[2])
+                if steps == _SEARCHED[0] and abs(hand[2] - up_m) < _REACHED_M:
+                    near_m, far_m = min(near_m, float(hand[0])), max(far_m, float(hand[0]))
+            spans = [_closer(span, at, steps) for span, at in zip(spans, best, strict=False)]
+        return near_m, far_m, best
 
     def solve(self, height_m: float, act_s: float, place: int) -> float:
         """The setting that brings the hand to a height above the machine's foot, or closest."""
@@ -88,14 +149,33 @@ class _Plan:
         return best
 
 
+def _closer(span: tuple[float, float], at: float, steps: int) -> tuple[float, float]:
+    """The part of a span about a value."""
+    step = (span[1] - span[0]) / (steps - 1)
+    return max(at - step, span[0]), min(at + step, span[1])
+
+
 def _settings(value: float, place: int, turn: float) -> tuple[float, float, float]:
     return (value, 0.0, turn) if place == 0 else (0.0, value, turn)
 
 
+@dataclass(frozen=True)
+class Manner:
+    """What a scene says of an act."""
+
+    is_turned: bool = True
+    """Whether the machine may be turned, its side to the camera."""
+    is_fixed: bool = False
+    """Whether both the machine and the first thing stay where they are."""
+    left: Left = "in"
+    """In a goal that has a rim, on it, or on a pile of the others, which it bears."""
+    begin_s: float | None = None
+    """When the machine begins to move for it, s; None: the length of the clip decides."""
+
+
 def grip(
     kind: str, machine: Actor, things: Sequence[Actor], duration_s: float, *,
-    support: Actor | None = None, goal: Actor | None = None, is_turned: bool = True,
-    left: Left = "in",
+    support: Actor | None = None, goal: Actor | None = None, manner: Manner,
 ) -> tuple[Actor, list[Actor], Actor | None]:  # fmt: skip
     """The machine, the things and the goal of an act.
 
@@ -106,30 +186,28 @@ def grip(
         duration_s: length of the clip, s.
         support: what the first is on; else the machine has it where its hand is.
         goal: what it is set down on or in, which is put there.
-        is_turned: whether the machine may be turned, its side to the camera.
-        left: in a goal that has a rim, on it, or on a pile of the others, which it bears.
+        manner: what else the scene says of it.
+
+    Raises:
+        OutOfReachError: both stay where they are, and the hand does not get from one to the other.
     """
     row = gripper_of(machine.noun.name)
     if kind == "hold":
         return *_carry(machine, row, things[0]), goal
     if goal is not None and goal.size_m > _WIDE_M:
         row = replace(row, turn=math.copysign(0.5 * math.pi, row.turn))
-    if support is None and is_turned:
-        machine = moving(machine, steady(machine.track.at(0.0).position, 0.0))
-    plan = _Plan(machine, row, kind, _contact_s(kind, duration_s), left)
+    if manner.is_turned:
+        yaw = 0.0 if support is None else _TO_CAMERA
+        machine = moving(machine, steady(machine.track.at(0.0).position, yaw))
+    plan = _Plan(machine, row, kind, _contact_s(kind, duration_s), manner.left)
+    if manner.begin_s is not None:
+        plan = replace(plan, contact_s=manner.begin_s - plan.first_move_s())
     first, *others = things
-    level_m = machine.track.at(0.0).position[2]
-    pick = 0.0
+    pick = put = 0.0
     if kind != "set down":
-        low_m = first.lowest_m(plan.contact_s) if support is not None else level_m
-        pick = plan.solve(_hand_height(row, first, low_m - level_m), 0.0, 0)
-        hand = plan.hand(0.0, (pick, 0.0, row.turn))
-        if support is not None:
-            plan = replace(plan, machine=_placed_at(machine, first, hand, plan.contact_s))
-        else:
-            first = moving(first, _at_hand(plan, first, hand, low_m))
-    put = 0.0
+        plan, first, pick = _take(plan, first, support, manner)
     if kind != "lift":
+        level_m = plan.machine.track.at(0.0).position[2]
         left_m = _left_height(plan, goal, others, first)
         put = plan.solve(_hand_height(row, first, left_m - level_m), _left_s(kind), 1)
     settings = (pick, put, row.turn)
@@ -137,6 +215,54 @@ def grip(
     if kind != "lift":
         goal, others = _put_below(plan, settings, goal, others)
     return plan.machine, [_follow_hand(plan, settings, first, goal), *others], goal
+
+
+def _take(
+    plan: _Plan, first: Actor, support: Actor | None, manner: Manner
+) -> tuple[_Plan, Actor, float]:
+    """The plan with its machine where it takes a thing, the thing there, and the shift for it."""
+    if manner.is_fixed:
+        plan, pick = reach_out(plan, first, is_turned=manner.is_turned)
+        return plan, first, pick
+    level_m = plan.machine.track.at(0.0).position[2]
+    low_m = first.lowest_m(plan.contact_s) if support is not None else level_m
+    pick = plan.solve(_hand_height(plan.gripper, first, low_m - level_m), 0.0, 0)
+    hand = plan.hand(0.0, (pick, 0.0, plan.gripper.turn))
+    if support is not None:
+        return (
+            replace(plan, machine=_placed_at(plan.machine, first, hand, plan.contact_s)),
+            first,
+            pick,
+        )
+    return plan, moving(first, _at_hand(plan, first, hand, low_m)), pick
+
+
+def reach_out(plan: _Plan, thing: Actor, *, is_turned: bool) -> tuple[_Plan, float]:
+    """The plan with its machine turned and bent to a thing, and its shift.
+
+    Raises:
+        OutOfReachError: its hand does not get there.
+    """
+    home, row = plan.machine.track.at(0.0), plan.gripper
+    x, y, _ = np.subtract(thing.middle(plan.contact_s), home.position)
+    ahead_m = math.hypot(x, y) - _behind(row, thing, plan.machine)
+    up_m = _hand_height(row, thing, thing.lowest_m(plan.contact_s) - home.position[2])
+    if is_turned:
+        track = replace(plan.machine.track, yaw=math.atan2(y, x))
+        plan, aim = replace(plan, machine=replace(plan.machine, track=track)), 0.0
+    else:
+        aim = math.remainder(math.atan2(y, x) - home.yaw, math.tau)
+    near_m, far_m, best = plan.search(ahead_m, up_m)
+    pick, bend, gap_m = best
+    can_turn = abs(plan.aimed_rad(1.0)) > _STILL_M
+    if gap_m > _REACHED_M or (not can_turn and abs(aim) * ahead_m > _REACHED_M):
+        raise OutOfReachError(
+            near_m + _behind(row, thing, plan.machine),
+            far_m + _behind(row, thing, plan.machine),
+            home.yaw if not (is_turned or can_turn) else math.atan2(y, x),
+        )
+    turn = aim / plan.aimed_rad(1.0) if can_turn else 0.0
+    return replace(plan, aim=(bend, 0.0, turn)), pick
 
 
 def _contact_s(kind: str, duration_s: float) -> float:
@@ -164,10 +290,10 @@ def _hand_height(row: Gripper, thing: Actor, low_m: float) -> float:
 def _placed_at(machine: Actor, thing: Actor, hand: Affine, time_s: float) -> Actor:
     """The machine behind a thing, whose place then is that of its hand."""
     x, y, _ = thing.middle(time_s)
-    off = rotation(_TO_CAMERA, 0.0, 0.0) @ hand[:, 3]
-    level_m = machine.track.at(0.0).position[2]
-    place = (float(x - off[0]), float(y - off[1]), level_m)
-    return replace(machine, track=replace(machine.track, start=place, yaw=_TO_CAMERA))
+    home = machine.track.at(0.0)
+    off = rotation(home.yaw, 0.0, 0.0) @ hand[:, 3]
+    place = (float(x - off[0]), float(y - off[1]), home.position[2])
+    return moving(machine, steady(place, home.yaw))
 
 
 def _at_hand(plan: _Plan, thing: Actor, hand: Affine, low_m: float) -> Track:
@@ -186,7 +312,7 @@ def _behind(row: Gripper, thing: Actor, machine: Actor) -> float:
 def _acting(plan: _Plan, settings: tuple[float, float, float]) -> Actor:
     home = plan.machine.track.at(0.0)
     rest = steady(home.position, home.yaw, activity=plan.activity)
-    track = replace(rest, contact_s=plan.contact_s, grips=(("shift", settings),))
+    track = replace(rest, contact_s=plan.contact_s, grips=plan.grips(settings))
     return moving(plan.machine, track)
 
 

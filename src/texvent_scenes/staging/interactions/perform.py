@@ -21,15 +21,16 @@ from texvent_scenes.models.activities import (
 from texvent_scenes.models.anchors import takes_in
 from texvent_scenes.models.people.outfit import can_be_worn, list_props
 from texvent_scenes.models.protocol import Noun, Pose
-from texvent_scenes.models.shapes import compose
+from texvent_scenes.models.shapes import compose, point
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
-from texvent_scenes.spec.data import PLACING, SENT
+from texvent_scenes.spec.data import HANDLED, PLACING, SENT
 from texvent_scenes.spec.scene import Direction, Motion, SceneObject
 from texvent_scenes.staging.actors import Actor, seeded
 from texvent_scenes.staging.interactions import handling, holding, machines, rally, striking
 from texvent_scenes.staging.interactions.holding import hides_riders
 from texvent_scenes.staging.interactions.sending import send_into
+from texvent_scenes.staging.placement.apart import RESTING
 from texvent_scenes.staging.placement.zones import are_driven
 from texvent_scenes.staging.tracks.phases import PATH_KINDS, fits_in_hand
 from texvent_scenes.staging.tracks.track import attached
@@ -441,6 +442,25 @@ def _swing_along(cast: dict[int, Actor], rider: int, below: int) -> None:
     cast[rider] = replace(one, track=track, is_mover=True)
 
 
+def _act_where_stated(
+    relation: IndexedRelation, description: SceneDescription, who: Actor, what: Actor,
+    duration_s: float, turn: int,
+) -> tuple[Actor | None, Actor | None]:  # fmt: skip
+    """Both bodies of an act, whose subject comes to a stated place of what it handles."""
+    act, objects = ACTS[relation.kind], description.objects
+    bodies = act(who, what, duration_s, turn)
+    own, said = objects[who.object_index], objects[what.object_index]
+    is_free = own.position_m is None and not any(
+        one.subject == who.object_index and one.kind in RESTING for one in description.relations
+    )
+    if relation.kind in HANDLED and is_free and said.position_m is not None and bodies[1]:
+        off = np.subtract(what.track.at(0.0).position, bodies[1].track.at(0.0).position)
+        start = point(np.add(who.track.start, [*off[:2], 0.0]))
+        who = replace(who, track=replace(who.track, start=start))
+        bodies = act(who, what, duration_s, turn)
+    return bodies
+
+
 def _perform(
     cast: dict[int, Actor], relation: IndexedRelation, description: SceneDescription,
     duration_s: float,
@@ -467,7 +487,8 @@ def _perform(
     for place, (one, other) in enumerate(itertools.islice(pairs, most)):
         if one != other:
             turn = place // max(len(subjects), 1)
-            bodies = ACTS[relation.kind](cast[one], cast[other], duration_s, turn)
+            act = partial(_act_where_stated, relation, description)
+            bodies = act(cast[one], cast[other], duration_s, turn)
             for number, body in zip((one, other), bodies, strict=True):
                 if body is None:
                     del cast[number]
