@@ -49,6 +49,8 @@ _AFLOAT = 0.15
 _CAMERA_M, _ZOOM, _STEEP = 0.03, 1.04, 0.85
 """Way and ratio of focal lengths of a camera that are told; upward part of the sight of one that
 looks straight down or up."""
+_BENT, _BENT_SHARE = 1.1, 0.1
+"""Path over way from which on a way has legs; share of its longest side that is told of it then."""
 _ROLLED_DEG = 3.0
 """Least roll of a camera that is told."""
 _IDLE = ("move", "stand")
@@ -190,7 +192,8 @@ def _tell_way(staged: StagedClip, one: Actor) -> str:
     axes = np.array([[ahead[1], -ahead[0], 0.0], ahead, [0.0, 0.0, 1.0]])
     ways = [(abs(way), f"{_round(abs(way))} m {name[int(way > 0)]}")
             for way, name in zip(axes @ net, names, strict=True)]  # fmt: skip
-    least = 0.3 * max(length for length, _ in ways)
+    is_bent = path > _BENT * float(np.linalg.norm(net))
+    least = (_BENT_SHARE if is_bent else 0.3) * max(length for length, _ in ways)
     return f"goes {join_words([words for length, words in ways if length >= least])} at {speed} m/s"
 
 
@@ -200,8 +203,7 @@ def _tell_place_of(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
     if one.track.anchor is not None:
         carriers = [other for other in staged.scene.actors
                     if other.track is one.track.anchor.carrier]  # fmt: skip
-        on_ground = one.corners(staged.times[at])[:, 2].min() <= _GROUND_M
-        if carriers and not (on_ground and carriers[0].noun.name in PERSON_NOUNS):
+        if carriers and not _is_pushed(one, carriers[0], staged.times[at]):
             noun = _plain(carriers[0].noun.name)
             gap_m = _gap_between(one, carriers[0], staged.times[at])
             is_apart = gap_m > _APART * one.model.height
@@ -228,6 +230,15 @@ def _tell_place_of(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
     if low[2] > (_AFLOAT * one.model.height if is_wet and is_afloat else _GROUND_M):
         return f"{_round(low[2])} m above the {ground}"
     return f"{'in' if is_wet and low[2] < -_GROUND_M else 'on'} the {ground}"
+
+
+def _is_pushed(one: Actor, carrier: Actor, time_s: float) -> bool:
+    """Whether it goes along the ground beside what takes it along, or at a person's feet."""
+    own, other = one.corners(time_s), carrier.corners(time_s)
+    middle = 0.5 * (own.min(axis=0) + own.max(axis=0))[:2]
+    is_over = (other.min(axis=0)[:2] <= middle).all() and (middle <= other.max(axis=0)[:2]).all()
+    is_beside = carrier.noun.name in PERSON_NOUNS or not is_over
+    return bool(own[:, 2].min() <= _GROUND_M and is_beside)
 
 
 def _find_holder(staged: StagedClip, one: Actor, body: BodyBoxes, at: int) -> str:

@@ -69,6 +69,18 @@ def test_a_way_up_or_down_is_told(kind, words):
     assert re.search(rf"goes .*m {words}\b", line), line
 
 
+def test_each_leg_of_a_way_is_told():
+    legs = [{"kind": "rise"}, {"kind": "fly", "direction": "left", "speed_m_s": 2, "start_s": 0.5}]
+    _, (line,), _ = lines({"noun": "drone", "height_m": 1.0, "motions": legs})
+    assert re.search(r"goes [\d.]+ m to the left and [\d.]+ m up", line), line
+
+
+@pytest.mark.parametrize("pusher", ["man", "mobile robot", "woman"])
+def test_what_is_pushed_along_the_ground_is_on_it(pusher):
+    push = {"noun": pusher, "relations": [{"kind": "push", "to": ["crate"]}]}
+    assert "; on the ground" in lines(push, {"noun": "crate"})[1][1]
+
+
 @pytest.mark.parametrize(
     ("heading_deg", "side"), [(0.0, "side"), (90.0, "behind"), (-90.0, "front"), (180.0, "side")]
 )
