@@ -161,7 +161,7 @@ def test_a_bad_formula_is_named(formula, message):
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("by down", "by dwon", "no channel 'dwon'; known: ajar, clapping"),
+        ("by down", "by dwon", "no channel 'dwon'; known: aim.0, aim.1"),
         ('"crest"', '"crown"', "known: crest, none"),
         ('"head {height/4}', '"haed {height/4}', "must be on one of ground, head"),
     ],

@@ -6,7 +6,6 @@ at which it takes a thing, to that at which it leaves it, and between both place
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -29,6 +28,7 @@ from texvent_scenes.models.tables import trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor, size_of
 from texvent_scenes.staging.interactions.holding import moving
+from texvent_scenes.staging.interactions.reaching import REACHED_M, OutOfReachError, search
 from texvent_scenes.staging.tracks.keys import Key, Vector
 from texvent_scenes.staging.tracks.track import (
     Attachment,
@@ -54,19 +54,10 @@ the last instant at which what is moved is taken."""
 _TO_CAMERA = -0.5 * math.pi
 _WIDE_M = 0.8
 """Size from which on a goal is put a quarter turn away from where a thing is taken."""
-_STEPS, _ROUNDS, _SEARCHED = 33, 5, (25, 5, 5, 5)
-_STEP_S, _STILL_M, _REACHED_M = 0.05, 1e-6, 0.03
+_STEPS, _ROUNDS = 33, 5
+_STEP_S, _STILL_M = 0.05, 1e-6
 _ACTS_S = np.arange(-1.5, 1.5, _STEP_S)
-"""Instants of an act, s after the contact, at which its hand is looked for; least move of that;
-most that is left of its way to a thing."""
-
-
-class OutOfReachError(Exception):
-    """A thing is not where a machine's hand gets, which is at two distances and between them."""
-
-    def __init__(self, near_m: float, far_m: float, way_rad: float) -> None:
-        super().__init__(near_m, far_m)
-        self.near_m, self.far_m, self.way_rad = near_m, far_m, way_rad
+"""Instants of an act, s after the contact, at which its hand is looked for; least move of that."""
 
 
 @dataclass(frozen=True)
@@ -114,27 +105,10 @@ class _Plan:
         x, y = replace(self, aim=(0.0, 0.0, 0.1 * turn)).hand(0.0, (0.0, 0.0, 0.0))[:2, 3]
         return 10.0 * math.atan2(float(y), float(x))
 
-    def search(
-        self, ahead_m: float, up_m: float
-    ) -> tuple[float, float, tuple[float, float, float]]:  # fmt: skip
-        """Nearest and furthest place of the hand at a height, and how it gets closest to one.
-
-        Returns:
-            Both distances, m; the shift, the bend and what is left of the way, m.
-        """
-        spans = [self.gripper.reach, self.gripper.bend]
-        near_m, far_m, best = math.inf, -math.inf, (0.0, 0.0, math.inf)
-        for steps in _SEARCHED:
-            axes = [np.linspace(*span, steps if span[1] > span[0] else 1) for span in spans]
-            for shifted, bent in itertools.product(*axes):
-                bend = (float(bent), 0.0, 0.0)
-                hand = replace(self, aim=bend).hand(0.0, (float(shifted), 0.0, 0.0))[:, 3]
-                off = math.hypot(hand[0] - ahead_m, hand[2] - up_m)
-                best = min(best, (float(shifted), bend[0], off), key=lambda one: one[2])
-                if steps == _SEARCHED[0] and abs(hand[2] - up_m) < _REACHED_M:
-                    near_m, far_m = min(near_m, float(hand[0])), max(far_m, float(hand[0]))
-            spans = [_closer(span, at, steps) for span, at in zip(spans, best, strict=False)]
-        return near_m, far_m, best
+    def bent(self, shifted: float, bend: float) -> Float64Array:
+        """Place of the hand where it takes a thing, body coordinates."""
+        one = replace(self, aim=(bend, 0.0, 0.0))
+        return np.asarray(one.hand(0.0, (shifted, 0.0, 0.0))[:, 3])
 
     def solve(self, height_m: float, act_s: float, place: int) -> float:
         """The setting that brings the hand to a height above the machine's foot, or closest."""
@@ -147,12 +121,6 @@ class _Plan:
             best, step = float(tried[int(np.argmin(off))]), float(tried[1] - tried[0])
             low, high = max(best - step, low), min(best + step, high)
         return best
-
-
-def _closer(span: tuple[float, float], at: float, steps: int) -> tuple[float, float]:
-    """The part of a span about a value."""
-    step = (span[1] - span[0]) / (steps - 1)
-    return max(at - step, span[0]), min(at + step, span[1])
 
 
 def _settings(value: float, place: int, turn: float) -> tuple[float, float, float]:
@@ -252,10 +220,10 @@ def reach_out(plan: _Plan, thing: Actor, *, is_turned: bool) -> tuple[_Plan, flo
         plan, aim = replace(plan, machine=replace(plan.machine, track=track)), 0.0
     else:
         aim = math.remainder(math.atan2(y, x) - home.yaw, math.tau)
-    near_m, far_m, best = plan.search(ahead_m, up_m)
+    near_m, far_m, best = search(plan.bent, (row.reach, row.bend), ahead_m, up_m)
     pick, bend, gap_m = best
     can_turn = abs(plan.aimed_rad(1.0)) > _STILL_M
-    if gap_m > _REACHED_M or (not can_turn and abs(aim) * ahead_m > _REACHED_M):
+    if gap_m > REACHED_M or (not can_turn and abs(aim) * ahead_m > REACHED_M):
         raise OutOfReachError(
             near_m + _behind(row, thing, plan.machine),
             far_m + _behind(row, thing, plan.machine),

@@ -16,7 +16,8 @@ from texvent_scenes.models.shapes import point
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.scene import SceneObject
 from texvent_scenes.staging.actors import Actor, size_of
-from texvent_scenes.staging.interactions.gripping import Left, Manner, OutOfReachError, grip
+from texvent_scenes.staging.interactions.gripping import Left, Manner, grip
+from texvent_scenes.staging.interactions.reaching import OutOfReachError
 
 __all__ = ["fit_hand", "grips", "perform_grip"]
 
@@ -104,7 +105,7 @@ def _list_moves(
     """[2] ways back from where an act puts bodies to where they are stated, m."""
     places = [[one[n].track.at(0.0).position[:2] for one in (cast, {**cast, **acting})]
               for n in stated]  # fmt: skip
-    return [np.subtract(*both) for both in places]
+    return [np.subtract(before, after) for before, after in places]
 
 
 def _tell_reach(

@@ -10,9 +10,11 @@ from tests.scenes.every_row import for_every
 from tests.scenes.staged import place
 
 from texvent.errors import ConfigError
+from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.tables import trait_values
+from texvent_scenes.scene_input import describe_scene
 from texvent_scenes.spec.data import HANDLED
-from texvent_scenes.spec.scene import Motion, Relation, SceneObject
+from texvent_scenes.spec.scene import Motion, Relation, Scene, SceneObject
 
 ACTS = [(noun, act) for noun, row in trait_values("gripper").items()
         for act in row["acts"] if act != "hold"]  # fmt: skip
@@ -127,12 +129,37 @@ def test_who_handles_a_thing_comes_to_its_stated_place_or_the_file_is_refused(ro
         SceneObject("mug", position_m=(0.5, 0.3), relations=on),
         *[SceneObject("table", position_m=(0.5, 0.3))] * is_borne,
     )
-    try:
-        found = place(*bodies)
-    except ConfigError as error:
-        assert (kind, noun == "hand" or is_borne) == ("lift", True)
-        assert re.search(r"^objects\[1\]\.position_m is .*has it \S+ m (higher|lower)", str(error))
-    else:
-        (mug,) = (one for one in found if one.object_index == 1)
-        np.testing.assert_allclose(mug.track.at(0.0).position[:2], (0.5, 0.3), atol=0.02)
-        assert kind != "lift" or not is_borne
+    if kind == "lift" and (noun == "hand" or is_borne):
+        line = r"^objects\[1\]\.position_m is .*has it \S+ m (higher|lower)"
+        with pytest.raises(ConfigError, match=line):
+            place(*bodies)
+        return
+    (mug,) = (one for one in place(*bodies) if one.object_index == 1)
+    np.testing.assert_allclose(mug.track.at(0.0).position[:2], (0.5, 0.3), atol=0.02)
+
+
+IDLE = (
+    ((Motion("work"), Motion("stand", start_s=1.0)), (), "objects[0].motions[1].kind"),
+    ((Motion("stand"), Motion("turn", "left")), (), "objects[0].motions[1].kind"),
+    ((Motion("work", pace=2.0),), (), "objects[0].motions[0].pace"),
+    ((Motion("work"), Motion("work", start_s=1.0)), (), "objects[0].motions[1].kind"),
+    ((), (Motion("slide", "left"),), "objects[1].motions[0].kind"),
+)
+
+
+@for_every(itertools.product(ACTS, IDLE))
+def test_motions_that_an_act_of_a_machine_leaves_out_are_refused(row):
+    (noun, kind), (own, other, path) = row
+    machine = SceneObject(noun, motions=own, relations=(Relation(kind, ("thing",)),))
+    things = SceneObject(THINGS[noun], id="thing", motions=other)
+    with pytest.raises(ConfigError) as error:
+        describe_scene(Scene(objects=(machine, things)), NOUNS)
+    assert str(error.value).startswith(f"{path} has no effect: ")
+
+
+@for_every(ACTS)
+def test_a_time_of_the_work_of_a_machine_is_accepted(row):
+    noun, kind = row
+    motions = Motion("stand"), Motion("work", start_s=0.5)
+    machine = SceneObject(noun, motions=motions, relations=(Relation(kind, ("thing",)),))
+    describe_scene(Scene(objects=(machine, SceneObject(THINGS[noun], id="thing"))), NOUNS)
