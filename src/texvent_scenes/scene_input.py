@@ -230,13 +230,12 @@ def check_words(scene: Scene, assets: str | Path | None = None) -> Scene:
     return _refuse_idle(checked_scene(scene, list_words(nouns)), nouns)
 
 
-def _refuse_idle(
-    scene: Scene, nouns: Mapping[str, Noun], *, is_sentence: bool = False
-) -> Scene:  # fmt: skip
+def _refuse_idle(scene: Scene, nouns: Mapping[str, Noun]) -> Scene:
     from texvent_scenes.staging.idle_acts import list_idle_acts
 
-    # In a sentence an act and a word for how its parts go tell the same: "turns and picks up".
-    of_acts = () if is_sentence else list_idle_acts(scene)
+    # In a sentence, and in a file written from it, an act and a word for how its parts go tell the
+    # same: "turns and picks up".
+    of_acts = () if scene.prompt else list_idle_acts(scene)
     for idle in (*_list_idle(scene, nouns), *of_acts):
         if not idle.is_usual:
             raise ConfigError(f"{idle.path} has no effect: {idle.why}")
@@ -342,7 +341,7 @@ def describe_scene(
 
     scene = checked_scene(scene, list_words(nouns))
     _check_pictures(scene)
-    _refuse_idle(scene, nouns, is_sentence=words is not None)
+    _refuse_idle(scene, nouns)
     description = to_description(scene)
     return complete(description if words is None else replace(description, words=words), nouns)
 

@@ -11,7 +11,8 @@ from texvent.cli.app import main
 from texvent.errors import InputError
 from texvent.run.regeneration import render_again
 from texvent_scenes import Camera, CameraMove, Motion, Place, Scene, SceneObject, load_scene
-from texvent_scenes.scene_input import list_nouns, understand
+from texvent_scenes.scene_input import check_words, list_nouns, read, understand
+from texvent_scenes.spec.files import save_scene
 
 OPTIONS = {"sensor": "48x36", "duration": 0.2, "seed": 3}
 FLAGS = ["--sensor", "48x36", "--duration", "0.2", "--seed", "3", "--previews", "none", "-q"]
@@ -151,3 +152,14 @@ def test_words_left_to_the_drawn_scene_are_neither_lost_nor_shown(text):
     reading = texvent.read(text)
     assert reading.open_words
     assert not {*reading.open_words} & {*reading.not_understood, *reading.shown}
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["a forklift drives to a pallet and lifts it", "a robot arm slowly lifts a box from a table",
+     "a robot arm turns and picks up a bolt", "a crane lifts a container"],
+)  # fmt: skip
+def test_what_a_sentence_says_of_an_act_of_a_machine_can_be_read_from_its_file(text, tmp_path):
+    scene = read(text).scene
+    save_scene(tmp_path / "scene.toml", scene)
+    assert check_words(load_scene(tmp_path / "scene.toml")) == scene
