@@ -3,6 +3,7 @@
 import dataclasses
 import json
 import math
+import os
 import tomllib
 from collections.abc import Iterator
 from pathlib import Path
@@ -324,11 +325,23 @@ def test_objects_and_camera_stand_where_metres_say(kind):
     assert camera.focal == pytest.approx(0.5 / math.tan(math.radians(30.0)))
 
 
-def test_a_picture_lies_beside_its_file(tmp_path):
+def test_pictures_and_models_lie_beside_their_file_from_wherever_it_is_named(tmp_path, monkeypatch):
     screen = {"noun": "tv", "picture": {"kind": "file", "value": "shown.png"}}
-    (tmp_path / "scene.json").write_text(json.dumps({"objects": [screen]}))
-    scene = load_scene(tmp_path / "scene.json")
-    assert scene.objects[0].picture.value == str(tmp_path.resolve() / "shown.png")
+    part = {"noun": "bracket", "model": "models/bracket.obj"}
+    file = tmp_path / "here" / "scene.json"
+    file.parent.mkdir()
+    file.write_text(json.dumps({"objects": [screen, part]}))
+    for folder in (tmp_path, tmp_path / "here"):
+        monkeypatch.chdir(folder)
+        for path in (
+            tmp_path / "here" / "scene.json",
+            os.path.relpath(tmp_path / "here/scene.json"),
+        ):
+            scene = load_scene(path)
+            assert scene.objects[0].picture.value == str(tmp_path.resolve() / "here" / "shown.png")
+            model = tmp_path.resolve() / "here" / "models" / "bracket.obj"
+            assert scene.objects[1].model == str(model)
+    scene = dataclasses.replace(scene, objects=scene.objects[:1])
     with pytest.raises(ConfigError, match=r"objects\[0\].picture: the picture .* does not exist"):
         describe_scene(scene, list_nouns())
 
