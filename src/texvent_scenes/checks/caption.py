@@ -242,7 +242,7 @@ def _is_pushed(one: Actor, carrier: Actor, time_s: float) -> bool:
 
 
 def _find_holder(staged: StagedClip, one: Actor, body: BodyBoxes, at: int) -> str:
-    """What it is said to be in or on, if its middle is over or in that: an armchair."""
+    """Bearer that it is said to be in or on, if its middle is over or in that: an armchair."""
     for each in staged.description.relations:
         if each.subject == one.object_index and each.kind in ("in", "on"):
             for other in (other for n in each.targets for other in staged.boxes[n]):

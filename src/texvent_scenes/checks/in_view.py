@@ -114,6 +114,15 @@ class Unseen(NamedTuple):
     """Instance id → the most that is seen of it."""
 
 
+def _list_close(scene: ComposedScene, description: SceneDescription) -> set[int]:
+    """Indices of the subject of a close-up, and of those who hold it."""
+    if description.camera.framing != "close" or not scene.actors:
+        return set()
+    close = {choose_main(description, scene.actors).object_index}
+    holders = (one for one in description.relations if one.kind == "hold")
+    return close | {one.subject for one in holders if not close.isdisjoint(one.targets)}
+
+
 def find_unseen(
     scene: ComposedScene, description: SceneDescription, size: SensorSize, duration_s: float
 ) -> Unseen:
@@ -128,10 +137,7 @@ def find_unseen(
     related = _list_related(description)
     climbed = {i for one in description.relations for i in one.targets
                if one.kind in ("up", "down", "off")}  # fmt: skip
-    is_close = description.camera.framing == "close" and scene.actors
-    close = {choose_main(description, scene.actors).object_index} if is_close else set[int]()
-    close |= {one.subject for one in description.relations
-              if one.kind == "hold" and not close.isdisjoint(one.targets)}  # fmt: skip
+    close = _list_close(scene, description)
     outside, small, bodies = list[str](), list[str](), list[list[BodyBoxes]]()
     covered = {one.subject for one in description.relations if one.kind in _COVERING}
     notes = list[str]()

@@ -116,7 +116,7 @@ def _choose_placed(
 
 
 def _find_aimed(draft: SceneDraft, phrase: Phrase, last: Token, subjects: Indices) -> list[int]:
-    """What somebody looks at, if a phrase follows it at once: "looks at a bird on a branch"."""
+    """Target of a look, if a phrase follows it at once: "looks at a bird on a branch"."""
     verb, before = draft.last.verb or NO_TOKEN, draft.beside(phrase.preposition, -1)
     nearest = [one for one in draft.last.nearest if one not in subjects]
     is_at = last.text == "at" and any(map(draft.walks, nearest))  # no desk that one sits at

@@ -51,7 +51,7 @@ from texvent_scenes.staging.surroundings.road_line import (
     show_crossing,
 )
 from texvent_scenes.staging.surroundings.scenery import scatter
-from texvent_scenes.staging.surroundings.threads import list_cords, list_threads, thread_at
+from texvent_scenes.staging.surroundings.threads import list_strings, thread_at
 
 VIEW_INSTANTS = 7
 """Instants of the clip at which scenery must not hide anything."""
@@ -179,10 +179,8 @@ def compose_scene(
         tuple(dict.fromkeys([*placer.not_shown, *_list_late(description, duration_s)])),
         (*dict.fromkeys(placer.notes), *_tell_roads(description, ground, view.road),
          *_tell_dark(description, ground)),
-        placer.orphans, tuple(items), (
-            *list_threads(description, actors, duration_s),
-            *list_cords(actors, animated_environment.base.ceiling_m, duration_s),
-        ),
+        placer.orphans, tuple(items),
+        list_strings(description, actors, animated_environment.base.ceiling_m, duration_s),
     )  # fmt: skip
 
 

@@ -47,7 +47,7 @@ ACTIVITIES = {
 }  # fmt: skip
 """Relation → activity of a machine."""
 Left = Literal["in", "on", "pile"]
-"""Where a thing is left."""
+"""Manner in which a thing is left."""
 _CARRIED_S, _OVER_RIM_M, _LATEST_S = 1.2, 0.12, 0.8
 """From where a thing is taken to where it is left, s; height above a rim at which it is let go, m;
 the last instant at which what is moved is taken."""
@@ -69,7 +69,7 @@ class _Plan:
     kind: str
     contact_s: float
     left: Left
-    """Where the thing is left."""
+    """Manner in which the thing is left."""
     aim: Vector = (0.0, 0.0, 0.0)
     """Turns of the hand where it takes and where it leaves a thing, and of all of the machine."""
 
@@ -129,7 +129,7 @@ def _settings(value: float, place: int, turn: float) -> tuple[float, float, floa
 
 @dataclass(frozen=True)
 class Manner:
-    """What a scene says of an act."""
+    """Statement of a scene about an act."""
 
     is_turned: bool = True
     """Whether the machine may be turned, its side to the camera."""

@@ -33,8 +33,8 @@ _AHEAD_M = 7.0
 
 
 _GAP_AHEAD_M, _OUT_OF_M, _KERB_M = 3.0, 1.6, 0.2
-"""How far beyond the end of the route the gap of a row begins, its width, and from the edge of the
-road to those who are parked, m."""
+"""Distance from the end of the route to the gap of a row, its width, and distance from the edge of
+the road to those who are parked, m."""
 
 
 class Lengthened:

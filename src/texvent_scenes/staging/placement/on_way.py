@@ -114,7 +114,7 @@ def _lead_out(group: ObjectGroup, subject: ObjectGroup, height: float) -> Goal:
 
 
 def _stay_behind(group: ObjectGroup, subject: ObjectGroup, height: float) -> Goal:
-    """Where who goes away begins: behind, or aside of those who go along the line of sight."""
+    """Start of who goes away: behind, or aside of those who go along the line of sight."""
     x = float((group.half_at_rest() + subject.half_at_rest())[0]) + _LEFT_M
     along = math.cos(subject.plan.yaw)
     start = subject.to_world(-0.5 * subject.plan.travel_m, 0.0, height - subject.centre[2])

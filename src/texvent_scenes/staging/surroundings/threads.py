@@ -27,7 +27,22 @@ _INSTANTS = (0.31, 0.64, 1.0)
 """Shares of a clip at which a lamp is where it was, if it hangs still."""
 
 
-def list_threads(
+def list_strings(
+    description: SceneDescription, actors: Sequence[Actor], ceiling_m: float, duration_s: float
+) -> tuple[tuple[PlacedModel, float], ...]:
+    """Threads and cords of a scene, and when each lets go, s.
+
+    Args:
+        description: the scene.
+        actors: its bodies.
+        ceiling_m: height of the ceiling, m; inf = there is none.
+        duration_s: length of the clip, s.
+    """
+    threads = _list_threads(description, actors, duration_s)
+    return *threads, *_list_cords(actors, ceiling_m, duration_s)
+
+
+def _list_threads(
     description: SceneDescription, actors: Sequence[Actor], duration_s: float
 ) -> Iterator[tuple[PlacedModel, float]]:
     """The threads of what waits in the air, and when each lets go, s."""
@@ -39,16 +54,10 @@ def list_threads(
             yield _hang(one), next(falls, duration_s)
 
 
-def list_cords(
+def _list_cords(
     actors: Sequence[Actor], ceiling_m: float, duration_s: float
 ) -> Iterator[tuple[PlacedModel, float]]:
-    """The cords of lamps that hang still below a ceiling, which stay.
-
-    Args:
-        actors: bodies of the scene.
-        ceiling_m: height of the ceiling, m; inf = there is none.
-        duration_s: length of the clip, s.
-    """
+    """The cords of lamps that hang still below a ceiling, which stay."""
     for one in actors:
         hangs = one.noun.name in nouns_with("hangs from a ceiling") and math.isfinite(ceiling_m)
         if hangs and is_still(one, duration_s):

@@ -135,10 +135,7 @@ def plan_motion(
     yaw = _choose_yaw(motions, noun, model, toss)
     yaw = yaw if heading_deg is None else math.radians(heading_deg)
     stated = next((m.speed_m_s for m in motions if m.speed_m_s is not None), None)
-    speed = usual_speed(noun, motion.kind) if stated is None else stated
-    if stated is None and motion.kind == "fly" and motion.direction in _OF_CAMERA:
-        size_m = max(model.length, model.width, model.height)
-        speed = min(speed, _LOOMING * size_m / duration_s)
+    speed = _usual_speed(motion, noun, model, duration_s) if stated is None else stated
     if noun.is_working and works_in_turn(motions):
         terms = time_of_work(motions, model, duration_s)
         return MotionPlan(motion, yaw, speed, duration_s, work=terms)
@@ -146,9 +143,8 @@ def plan_motion(
         stopped = Term("run_s", drift=-1.0)
         return MotionPlan(motion, yaw, speed, duration_s, work=(stopped,))
     is_wheeled = noun.motion == "drive" or getattr(model, "is_wheeled", False)
-    is_facing = _faces_camera(
-        noun, model, next((one for one in motions if one.kind != "stand"), motion)
-    )
+    going = next((one for one in motions if one.kind != "stand"), motion)
+    is_facing = _faces_camera(noun, model, going)
     axle = "pitch" if noun.name in nouns_with("has an axle") else "yaw"
     plan = MotionPlan(
         motion, yaw, speed, duration_s, is_facing=is_facing, start_m=start_m,
@@ -167,6 +163,15 @@ def plan_motion(
         return replace(plan, yaw=path.yaw, path=path)
     pace = 1.0 if motion.speed_m_s is not None else motion.pace
     return replace(plan, speed_m_s=speed * pace, gesture=choose_gesture(noun, motion))
+
+
+def _usual_speed(motion: Motion, noun: Noun, model: Model, duration_s: float) -> float:
+    """Speed of a motion without a stated one, m/s; limited for what flies at the camera."""
+    speed = usual_speed(noun, motion.kind)
+    if motion.kind == "fly" and motion.direction in _OF_CAMERA:
+        size_m = max(model.length, model.width, model.height)
+        speed = min(speed, _LOOMING * size_m / duration_s)
+    return speed
 
 
 def _hasten(motions: Sequence[Motion], noun: Noun, duration_s: float) -> Iterator[Term]:
