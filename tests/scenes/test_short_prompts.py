@@ -298,7 +298,7 @@ def test_a_mark_makes_a_disc_or_a_fan_one_that_turns_visibly(text, noun):
 @pytest.mark.parametrize(
     ("text", "activity"),
     [("a pancake being flipped in a pan", "toss"), ("wood being chopped", "chop wood"),
-     ("dough being kneaded on a table", "knead"), ("a hammer striking a nail", "hammer"),
+     ("dough being kneaded on a kitchen counter", "knead"), ("a hammer striking a nail", "hammer"),
      ("a pen writing on white paper", "write"), ("a broom sweeping the floor", "sweep"),
      ("slicing a tomato", "slice"), ("chopping carrots", "slice"), ("petting a cat", "stroke low"),
      ("hands kneading dough", "knead"), ("hands shuffling cards", "shuffle cards"),

@@ -188,4 +188,4 @@ def shortened(text: str, most: int | None) -> str:
     """A text of at most `most` characters: beginning and end, which of a path say the most."""
     if most is None or len(text) <= most:
         return text
-    return f"{text[: most // 2]}...{text[3 - most // 2 :]}"
+    return f"{text[: most // 2]}...{text[most // 2 + 3 - most :]}"

@@ -61,6 +61,8 @@ INVERSE: Mapping[str, str] = {
 _FIXED, _AWAY, _ALONG_X = np.zeros(3), np.array([0.0, 1.0, 0.0]), np.array([1.0, 0.0, 0.0])
 _INTO_PICTURE = 0.6
 """Angle to the picture of the way between two things, rad."""
+_OUT = 0.45
+"""Share of its way that who comes out of a gap has beyond the half of it."""
 _COVERED = 0.55
 """Share of what stands behind that may be hidden where it stands right behind."""
 _ASIDE_RAD, _CLEAR_M = 0.25, 0.3
@@ -103,7 +105,7 @@ def place_on_targets(
         if len(targets) == 1 and len(targets[0].models) > 1:
             x, y = find_gap(targets[0])
         if group.plan.is_path and zone_of(targets[0].noun) == "road":  # it comes out of the gap
-            yaw, out = group.plan.yaw, 0.5 * group.plan.travel_m
+            yaw, out = group.plan.yaw, _OUT * group.plan.travel_m
             x, y = x + out * math.cos(yaw), y + out * math.sin(yaw)
         is_said = all(target.scene_object.position_m is not None for target in targets)
         is_fixed = is_said or len(targets) == 1
