@@ -185,11 +185,6 @@ def spawn() -> Iterator[Callable[..., subprocess.Popen[Any]]]:
         yield begin
 
 
-def _leave_real_time() -> None:
-    """Ordinary scheduling of a child: at a real-time priority, pages that spin starve all else."""
-    os.sched_setscheduler(0, os.SCHED_OTHER, os.sched_param(0))
-
-
 @pytest.fixture(scope="session")
 def chromium(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
     """Chromium without a window, started once."""
@@ -205,8 +200,7 @@ def chromium(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
     folder = str(tmp_path_factory.mktemp("downloads"))
     options.add_experimental_option("prefs", {"download.default_directory": folder})
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    service = Service(DRIVER, popen_kw={"preexec_fn": _leave_real_time})
-    driver = webdriver.Chrome(options=options, service=service)
+    driver = webdriver.Chrome(options=options, service=Service(DRIVER))
     driver.downloads = folder
     try:
         yield driver

@@ -170,7 +170,8 @@ def test_a_framing_holds_where_it_is_staged_and_another_one_does_not(noun):
 
 @pytest.mark.parametrize(
     ("text", "is_so"),
-    [("a man walks, the camera is at eye level", True), ("eye level shot of a truck driving", False),
+    [("a man walks, the camera is at eye level", True),
+     ("eye level shot of a truck driving", False),
      ("top view of a dog running, at eye level", False), ("a drone hovers at eye level", True),
      ("a drone hovers 20 m above the ground at eye level", False)],
 )  # fmt: skip
