@@ -1,15 +1,16 @@
-"""Default places: where a scene is that leaves it open."""
+"""Default places of scenes that leave them open, and ways along their corridors."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.activities import MOUTH_ACTIVITIES
 from texvent_scenes.models.places import PLACES, is_room
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
-from texvent_scenes.spec.scene import Place
+from texvent_scenes.spec.scene import Direction, Place, SceneObject
 
 AFLOAT_MOTIONS = ("sail", "paddle")
 AT_HAND = frozenset({"hold", "wear", "act on"})
@@ -20,6 +21,10 @@ _FAST_FLYER_M_S = 9.0
 """Speed above which what flies is shown in the sky, far from the ground."""
 _BORNE = ("on", "in", "ride", "under", "above")
 """Relations of what something else keeps off the ground."""
+_ALONG = frozenset({"walk", "run", "drive", "roll", "fly", "crawl", "slide"})
+"""Motions that lead along a corridor."""
+_AIMED = frozenset({"to", "towards", "at", "into", "through"})
+"""Relations to what is farther along a corridor."""
 
 
 def choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> str:
@@ -103,3 +108,28 @@ def _usual_place(members: Sequence[Noun], description: SceneDescription, kinds: 
     is_fast = all(noun.speed_m_s >= _FAST_FLYER_M_S for noun in members)
     rests = kinds <= {"stand", "sit", "lie", "rise", "sink"} | MOUTH_ACTIVITIES
     return "sky" if habitats == {"air"} and is_fast and not rests else "grass"
+
+
+def lead_along(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
+    """Ways along a corridor of those who go somewhere in it: they come.
+
+    Seen from behind, to things, or with smaller followers, whom they would hide, they go away.
+    """
+    tall = [nouns[one.noun].build(colour=None, scale=one.size, seed=0).height
+            for one in description.objects]  # fmt: skip
+    aimed = {one.subject for one in description.relations if one.kind in _AIMED}
+    aimed |= {n for one in description.relations for n in (one.subject, *one.targets)
+              if one.kind == "follow" and tall[one.subject] < tall[one.targets[0]]}  # fmt: skip
+    is_back = description.camera.view == "back"
+
+    def led(one: SceneObject, is_away: bool) -> SceneObject:
+        if not one.motions or one.heading_deg is not None:
+            return one
+        first, *others = one.motions
+        if first.kind not in _ALONG or first.direction not in (None, "down", "forward"):
+            return one
+        way: Direction = "away" if is_away else "towards"
+        return replace(one, motions=(replace(first, direction=way), *others))
+
+    objects = (led(one, is_back or n in aimed) for n, one in enumerate(description.objects))
+    return replace(description, objects=tuple(objects))

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from texvent_scenes.default_places import AFLOAT_MOTIONS, AT_HAND, choose_place
+from texvent_scenes.default_places import AFLOAT_MOTIONS, AT_HAND, choose_place, lead_along
 from texvent_scenes.default_work import (
     AT_REST,
     aligned,
@@ -33,7 +33,7 @@ from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Ground
 from texvent_scenes.spec.data import ACTED, SPACED
-from texvent_scenes.spec.scene import CameraMove, Direction, Motion, SceneObject
+from texvent_scenes.spec.scene import CameraMove, Motion, SceneObject
 
 NO_PLACE = "no place is said"
 """Begins the note about it."""
@@ -47,7 +47,6 @@ _UPRIGHT = {"up": "rise", "down": "sink"}
 _VERTICAL = {**_UPRIGHT, "up and down": "fly"}
 """Direction of what goes by no means of its own → its motion."""
 _FLYING = {"fly", "rise", "sink", "hover"}
-_ALONG = frozenset({"walk", "run", "drive", "roll", "fly", "crawl", "slide"})
 _GO = Motion("go")
 _ROCKING = 0.5
 """Pace at which what floats rocks on waves, as a share of that of a sway."""
@@ -84,7 +83,7 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
         description = _note(description, f"{NO_PLACE}: {place} is chosen")
     description = replace(description, place=replace(description.place, name=place))
     if PLACES[place].corridor_m:
-        description = _lead_along(description, nouns)
+        description = lead_along(description, nouns)
     if description.place.has_snow or PLACES[place].ground is Ground.SNOW:
         description = _snow_over(description)
     if PLACES[place].has_surface:
@@ -101,10 +100,6 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     return _park(_move(description, dict.fromkeys(everything, STANDING)), nouns)
 
 
-_AIMED = frozenset({"to", "towards", "at", "into", "through"})
-"""Relations to what is farther along a corridor."""
-
-
 def _ground(description: SceneDescription) -> SceneDescription:
     """The place over which things are in the sky: "a plane in the sky above a city"."""
     said = description.place
@@ -118,28 +113,6 @@ def _snow_over(description: SceneDescription) -> SceneDescription:
     """Hills without a colour of their own, under the snow that lies on all."""
     new = {n: replace(one, colour="white") for n, one in enumerate(description.objects)
            if one.colour is None and one.noun in nouns_with("of ground")}  # fmt: skip
-    return _change(description, new)
-
-
-def _lead_along(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
-    """Those who go somewhere in a corridor come along it.
-
-    Seen from behind, to things, or with smaller followers, whom they would hide, they go.
-    """
-    tall = [nouns[one.noun].build(colour=None, scale=one.size, seed=0).height
-            for one in description.objects]  # fmt: skip
-    aimed = {one.subject for one in description.relations if one.kind in _AIMED}
-    aimed |= {n for one in description.relations for n in (one.subject, *one.targets)
-              if one.kind == "follow" and tall[one.subject] < tall[one.targets[0]]}  # fmt: skip
-    ways: tuple[Direction, Direction] = ("towards", "away")
-    is_back = description.camera.view == "back"
-    new = {
-        n: replace(one, motions=(replace(one.motions[0], direction=ways[is_back or n in aimed]),
-                                 *one.motions[1:]))
-        for n, one in enumerate(description.objects)
-        if one.motions and one.motions[0].direction in (None, "down", "forward")
-        and one.motions[0].kind in _ALONG and one.heading_deg is None
-    }  # fmt: skip
     return _change(description, new)
 
 

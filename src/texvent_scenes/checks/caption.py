@@ -50,7 +50,7 @@ _CAMERA_M, _ZOOM, _STEEP = 0.03, 1.04, 0.85
 """Way and ratio of focal lengths of a camera that are told; upward part of the sight of one that
 looks straight down or up."""
 _BENT, _BENT_SHARE = 1.1, 0.1
-"""Path over way from which on a way has legs; share of its longest side that is told of it then."""
+"""Path over way from which on a way has legs; share of its longest side that a leg has at least."""
 _ROLLED_DEG = 3.0
 """Least roll of a camera that is told."""
 _IDLE = ("move", "stand")

@@ -42,7 +42,7 @@ mirror them, of a wet ground more than a faint sheen, of heavy snow as much as m
 _SOFT = ((25.0, 0.006), (50.0, 0.002))
 """The same of what is soft, as dust, of which a faint trace shows nothing: one is enough."""
 _FAINT = (3.0, 0.01)
-"""Difference and share of what changes pixels so little that it is told by none."""
+"""Difference and share below which a change of pixels is not visible."""
 _DRY = "the ground looks dry"
 _UNTOLD = ("no pixel shows it", "so faint that it is hardly seen")
 _GLEAM = (20.0, 0.004)

@@ -181,7 +181,7 @@ def _extent(points: Float64Array, camera: PosedCamera, size: SensorSize) -> floa
 
 
 def _is_still(one: PosedCamera, other: PosedCamera, reach_m: float) -> bool:
-    """Whether nobody sees that two poses of a camera are not the same.
+    """Whether the difference of two poses of a camera is not visible.
 
     `reach_m`: distance of what it looks at; 0: each difference is seen.
     """

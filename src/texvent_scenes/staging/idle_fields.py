@@ -393,6 +393,10 @@ def _who_reads(body: _Body, one: SceneObject, number: int, name: str) -> str:
         readers = f'{readers}; or direction "to and fro"'
     left = f"these do: {readers}" if readers else f"no motion of a {one.noun} does"
     if not readers and (read := [*_list_read(body, one, number)]):
+        if name in read:
+            along = "" if one.heading_deg is None else f" with a heading_deg of {one.heading_deg:g}"
+            return (f"{shown(motion.kind)} of a {one.noun}{along} takes another {name} than "
+                    f"{shown(given)}; leave it out")  # fmt: skip
         left = f"it reads {', '.join(read)}"
     return f"{shown(motion.kind)} of a {one.noun} does not read it; {left}"
 

@@ -97,7 +97,7 @@ def _find_opponents(draft: SceneDraft) -> None:
 
 
 def _look_at_held(draft: SceneDraft) -> None:
-    """Look closely at what is held where nobody is said who holds it: "pouring into a mug"."""
+    """Look closely at what is held where no holder is said: "pouring into a mug"."""
     camera = draft.parts["camera"]
     implied = [n for n, one in enumerate(draft.things) if one.pop("is_implied", False)]
     held = draft.targets(implied, ("hold",))

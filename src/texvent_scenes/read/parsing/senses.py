@@ -115,7 +115,7 @@ def _is_state(token: Token, tokens: Sequence[Token]) -> bool:
 
 
 def _is_depicted(token: Token, tokens: Sequence[Token]) -> bool:
-    """Whether a noun names what somebody draws, which is a picture: "sketches a horse"."""
+    """Whether a noun names the subject of a drawing, which is a picture: "sketches a horse"."""
     led = [*reversed(tokens[max(token.at - _NEAR, 0) : token.at])]
     own = [*itertools.takewhile(lambda one: one.has("articles", "field"), led)]
     verb = led[len(own)].text if len(own) < len(led) else ""
