@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import cv2
 import numpy as np
@@ -14,6 +15,8 @@ from texvent.errors import InputError
 
 MOST_LEVELS = 14
 """Levels of a pyramid at most: images up to 8,192 pixels on a side reach a single pixel."""
+KEPT_COLOURS = 32
+"""Meshes in other colours that are kept."""
 LARGEST_SIDE = 4096
 """Longest side of an image, pixels: larger ones are made smaller."""
 
@@ -197,6 +200,7 @@ def smooth_normals(
     return mean
 
 
+@lru_cache(maxsize=KEPT_COLOURS)
 def recoloured(mesh: Mesh, colour: Colour) -> Mesh:
     """The same mesh in one colour: what was brighter than its mean stays brighter."""
     weights = np.array([0.2126, 0.7152, 0.0722])
@@ -213,6 +217,17 @@ def recoloured(mesh: Mesh, colour: Colour) -> Mesh:
     plain = tinted(mesh.colours)
     has_image = (mesh.image >= 0)[:, None, None]
     return replace(mesh, colours=np.where(has_image, np.float32(1.0), plain), images=images)
+
+
+@lru_cache(maxsize=KEPT_COLOURS)
+def mean_colour(mesh: Mesh) -> Colour:
+    """Mean linear RGB of a mesh over its area."""
+    corners = mesh.colours.astype(np.float64).mean(axis=1)
+    texels = [np.ones(3), *(one.levels[-1].mean(axis=(0, 1)) for one in mesh.images)]
+    sides = triangle_normals(mesh.vertices * mesh.half, mesh.triangles)
+    areas = np.linalg.norm(sides, axis=1)
+    mean = areas @ (corners * np.array(texels)[mesh.image + 1]) / areas.sum()
+    return float(mean[0]), float(mean[1]), float(mean[2])
 
 
 def _unit_or(vectors: Float64Array, otherwise: Float64Array) -> Float32Array:

@@ -196,6 +196,12 @@ class ProceduralVideo(NotebookFrames):
         """Instance id → noun, such as {1: "car"}."""
         return self.scene.class_names
 
+    @property
+    def object_ids(self) -> Mapping[int, str]:
+        """Instance id → id of the object in the scene, such as {1: "taxi"}."""
+        ids: Mapping[int, str] = getattr(self.scene, "object_ids", {})
+        return ids
+
     def with_motion(self) -> ProceduralVideo:
         """The same video, whose frames carry exact motion vectors and depth."""
         return replace(self, has_motion=True)

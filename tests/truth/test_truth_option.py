@@ -1,5 +1,7 @@
 """`--truth` on the command line."""
 
+import json
+
 import h5py
 import numpy as np
 import pytest
@@ -32,6 +34,21 @@ def test_all_of_it_beside_the_events(folder, capsys):
     assert len(truth.event_instance) == len(texvent.load("b.raw"))
     assert set(np.unique(truth.event_instance)) <= {0, *truth.instances}
     assert (truth.metadata["prompt"], truth.metadata["seed"]) == ("a red ball bounces", 3)
+
+
+def test_the_ids_of_a_scene_are_found_in_its_truth(folder):
+    (folder / "s.toml").write_text(
+        '[[objects]]\nnoun = "ball"\nid = "left one"\ncount = 2\n[[objects]]\nnoun = "box"\n'
+        '[[objects]]\nnoun = "ball"\n'
+    )
+    assert run("generate", "s.toml", "-o", "b.h5", "--truth", "boxes", *QUICK) == 0
+    named = {1: "left one", 2: "left one", 3: "box", 4: "ball 2"}
+    truth = texvent.load_truth("b.truth")
+    assert truth.objects == named
+    assert set(truth.instances.values()) == {"ball", "box"}
+    boxes = json.loads((folder / "b.truth/boxes/coco.json").read_text())["annotations"]
+    assert boxes
+    assert all(one.get("object", "box") == named[one["track_id"]] for one in boxes)
 
 
 def test_ids_have_16_bits_in_hdf5(folder, capsys):

@@ -74,3 +74,9 @@ class SteeredVideo(FinishedVideo):
         """Instance id → noun."""
         names: Mapping[int, str] = self.scene.class_names
         return names
+
+    @property
+    def object_ids(self) -> Mapping[int, str]:
+        """Instance id → id of the object in the scene."""
+        ids: Mapping[int, str] = getattr(self.scene, "object_ids", {})
+        return ids

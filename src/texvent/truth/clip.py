@@ -25,6 +25,8 @@ EDGE_PX = 1e-3
 """Rounding of a right or lower edge that is summed in float32."""
 SOME_KNOW = {"occluded": "what is occluded", "class_id": "the class of pixels"}
 """Arrays that not every source brings."""
+_NAMED = ("classes", "instances", "objects")
+"""Facts that are numbers with names."""
 FACT_DAMAGE = (ValueError, TypeError, AttributeError, KeyError, OverflowError, RecursionError)
 
 
@@ -59,7 +61,7 @@ class ClipTruth:
             facts = self._read_facts()
             for name in ("times_us", "box_times_us"):
                 np.array(facts.get(name, ()), np.int64)
-            named = [one for of in ("classes", "instances") for one in facts.get(of, {}).items()]
+            named = [one for of in _NAMED for one in facts.get(of, {}).items()]
             texts = [*facts.get("parts", ()), *(name for number, name in named if int(number) >= 0)]
         except FileFormatError:
             raise
@@ -108,6 +110,15 @@ class ClipTruth:
     def instances(self) -> dict[int, str]:
         """Instance id → name of the object, of the objects of the clip that have a name."""
         return {int(number): name for number, name in self.facts.get("instances", {}).items()}
+
+    @property
+    def objects(self) -> dict[int, str]:
+        """Instance id → id of its object in the scene, such as "taxi" or "tree 2".
+
+        The name of its class, where the scene gives it no other; copies of an object share its id.
+        """
+        ids = {int(number): name for number, name in self.facts.get("objects", {}).items()}
+        return {**self.instances, **ids}
 
     def flow(self, index: int | None = None) -> NDArray[np.float32]:
         """[H, W, 2] px from frame `index` to the next, N − 1 of them; NaN where not known."""

@@ -52,7 +52,9 @@ class FolderTruth(ClipTruth):
         counted = f"{FACTS} counts {facts['frames']} frames, {TIMES} {len(times)}"
         self._refuse(len(times) != facts["frames"], counted)
         names = {number: one["class"] for number, one in facts["instances"].items()}
-        return {**facts, "instances": names, "times_us": times.tolist()}
+        ids = {number: one["object"] for number, one in facts["instances"].items()
+               if "object" in one}  # fmt: skip
+        return {**facts, "instances": names, "objects": ids, "times_us": times.tolist()}
 
     def _stored(self, part: str, name: str, numbers: range, index: int | None) -> NDArray[Any]:
         if index is None:

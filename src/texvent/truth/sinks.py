@@ -144,7 +144,7 @@ class FolderSink:
             "time_unit": "us, on the clock of the events",
             "classes": {str(number): name for number, name in source.classes.items()},
             "instances": {
-                str(one): {"class_id": source.class_ids[name], "class": name}
+                str(one): {"class_id": source.class_ids[name], "class": name, **self._id_of(one)}
                 for one, name in source.class_names.items()
             },
             "run": plain(self.facts),
@@ -165,13 +165,19 @@ class FolderSink:
         write_png(self._place(f"flow/{way}/{number}.png"), encode_flow(arrays["flow"]))
         np.savez_compressed(self._place(f"flow/{way}_npz/{number}.npz"), **arrays)
 
+    def _id_of(self, instance: int) -> dict[str, str]:
+        """The id of an object in its scene, where that is not the name of its class."""
+        ids = self.source.object_ids
+        return {"object": ids[instance]} if instance in ids else {}
+
     def _add_boxes(self, t_us: int, boxes: Any, visibility: Any, area: Any) -> None:
         self._coco.add_image(self._count, f"{self._count:06d}.png", self.source.size, t_us)
         rows = zip(boxes, visibility.tolist(), area.tolist(), strict=True)
         for box, share, pixels in rows:
             sides = [int(box[side]) for side in "xywh"]
-            more = {"track_id": int(box["track_id"])}
+            more: dict[str, Any] = {"track_id": int(box["track_id"])}
             more |= {} if np.isnan(share) else {"visibility": share}
+            more |= self._id_of(int(box["track_id"]))
             self._coco.add_box(int(box["class_id"]), sides, pixels, **more)
         self._append_boxes(boxes)
 
@@ -247,6 +253,8 @@ class SampleSink:
             "classes": {str(number): name for number, name in source.classes.items()},
             "instances": {str(one): name for one, name in source.class_names.items()},
         }
+        if source.object_ids:
+            self.facts["objects"] = {str(one): id for one, id in source.object_ids.items()}
         rows = self._rows.pop("boxes", {})
         tables = {name: np.concatenate(rows[name]) for name in ("boxes", "visibility") if rows}
         if self._place_labels is not None:

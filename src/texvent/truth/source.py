@@ -98,6 +98,7 @@ class TruthSource:
         video: the frames, or the scene that knows their truth.
         parts: as given.
         class_names: instance id → class name.
+        object_ids: instance id → id of its object in the scene, where that is not the class name.
         class_ids: class name → id, of all objects that have a name.
         classes: class id → name; objects without a name join when one is seen.
         numbers: object → class id, of the classes given.
@@ -115,6 +116,8 @@ class TruthSource:
         self.video, self.parts = without_preparation(video), parts
         names: Mapping[int, str] = dict(getattr(self.video, "class_names", {}))
         self.class_names = names
+        ids: Mapping[int, str] = getattr(self.video, "object_ids", {})
+        self.object_ids = {one: id for one, id in ids.items() if id != names.get(one)}
         self.class_ids: Mapping[str, int] = class_ids_of(names.values())
         self.classes = dict(sorted((number, name) for name, number in self.class_ids.items()))
         self.numbers: dict[str, int] = {}
@@ -291,6 +294,7 @@ class FittedScene:
         self.size, self.fps, self.is_live = video.size, video.fps, video.is_live
         self.frame_count, self.metadata = video.frame_count, video.metadata
         self.class_names: Mapping[int, str] = getattr(scene, "class_names", {})
+        self.object_ids: Mapping[int, str] = getattr(scene, "object_ids", {})
         self._fitted: Callable[..., Any] = partial(fit_motion, size=self.size, fit=fit)
         self._scale, self._shift = fit_place(scene.size, self.size, fit)
         self._is_even = fit != "stretch"

@@ -25,7 +25,6 @@ from texvent_scenes.mesh import (
     decode_srgb,
     light_of,
     make_mesh,
-    recoloured,
     smooth_normals,
     surface_image,
 )
@@ -253,9 +252,3 @@ def _joined(surfaces: Sequence[_Surface]) -> tuple[Mesh, Float64Array]:
         image=np.repeat(numbers, [len(one.triangles) for one in surfaces]),
         images=images,
     )
-
-
-@lru_cache(maxsize=KEPT_FILES)
-def painted(mesh: Mesh, colour: Colour) -> Mesh:
-    """The mesh in a colour, made once."""
-    return recoloured(mesh, colour)

@@ -12,9 +12,9 @@ import numpy as np
 
 from texvent.errors import InputError, shown
 from texvent_scenes.assets.index import ENDINGS, Asset
-from texvent_scenes.assets.model_file import KEPT_FILES, load_mesh, painted
+from texvent_scenes.assets.model_file import KEPT_FILES, load_mesh
 from texvent_scenes.description import SceneDescription
-from texvent_scenes.mesh import Colour, Float64Array, Mesh
+from texvent_scenes.mesh import Colour, Float64Array, Mesh, recoloured
 from texvent_scenes.models.nouns import AFLOAT, NOUNS
 from texvent_scenes.models.parts import read_nouns
 from texvent_scenes.models.protocol import Model, ModelPart, Noun, Pose, choose
@@ -76,7 +76,7 @@ def load_model(
     to_body = factor * turn @ to_file
     to_body[:, 3] -= [middle[0], middle[1], foot]
     length, width, height = (max(float(extent), 1e-3) for extent in extents)
-    shown = mesh if colour is None else painted(mesh, colour)
+    shown = mesh if colour is None else recoloured(mesh, colour)
     return AssetModel(shown, to_body, length, width, height, is_centred)
 
 

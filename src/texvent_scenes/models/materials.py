@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from texvent_scenes.mesh import mean_colour, recoloured
 from texvent_scenes.models.protocol import Model, ModelPart, Pose
 from texvent_scenes.rendered_scene import Colour, Texture
 
@@ -202,6 +203,9 @@ class OverriddenModel:
         if part.emission > 0.0:
             return part
         wanted = self._colour if self._colour is not None else self._material.colour
+        if part.mesh is not None:  # it has no grain or pattern, and is painted already
+            is_painted = self._colour is not None or wanted is None
+            return part if is_painted else replace(part, mesh=recoloured(part.mesh, wanted))
         own = sum(part.colour) / 3.0
         if self._colour is not None or wanted is None:
             colour = part.colour
@@ -251,7 +255,8 @@ def has_colour(parts: Sequence[ModelPart], colour: Colour, least: float = _LEAST
     """
 
     def is_like(part: ModelPart) -> bool:
-        both = (part.colour, *([] if part.texture is Texture.PLAIN else [part.second_colour]))
+        both = [part.colour] if part.mesh is None else [mean_colour(part.mesh)]
+        both += [] if part.texture is Texture.PLAIN else [part.second_colour]
         return any(np.linalg.norm(np.cbrt(one) - np.cbrt(colour)) <= _NEAR for one in both)
 
     return share_of(parts, is_like) >= least

@@ -7,6 +7,7 @@ axis. The IMU's axes are those of the first camera unless the rig says otherwise
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -93,6 +94,12 @@ class MountedScene:
     def class_names(self) -> dict[int, str]:
         """Instance id → noun."""
         return self.scene.class_names
+
+    @property
+    def object_ids(self) -> Mapping[int, str]:
+        """Instance id → id of the object in the scene."""
+        ids: Mapping[int, str] = getattr(self.scene, "object_ids", {})
+        return ids
 
     def camera(self, time_s: float) -> PosedCamera:
         """This camera at that instant."""

@@ -129,7 +129,8 @@ class SceneObject:
     """Path of a model of your own (GLB, OBJ, PLY), which a scene file may give relative to its own
     folder; all objects of one noun share it."""
     id: str = ""
-    """Name for relations; left out: the noun, and a number from its second object on ("tree 2")."""
+    """Name for relations, and in the truth; left out: the noun, and a number from its second object
+    on ("tree 2")."""
     count: Count = 1
     """Number of copies."""
     colour: Surface | None = None

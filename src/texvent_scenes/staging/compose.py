@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from texvent_scenes.models.places import PLACES, SEEN_FROM_AFAR, PlaceModel, lis
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.rendered_scene import MEDIUM_RECORD, Environment, Ground, Primitives
-from texvent_scenes.spec.scene import CameraMove, Motion
+from texvent_scenes.spec.scene import CameraMove, Motion, object_ids
 from texvent_scenes.staging.actors import Actor, PlacedModel, assemble, join_primitives, seeded
 from texvent_scenes.staging.camera.angles import is_said_room
 from texvent_scenes.staging.camera.camera_placement import place_camera
@@ -92,6 +92,8 @@ class ComposedScene:
     """Those on which bodies hang, each until an instant, s."""
     has_highlights: bool = False
     """Whether light above white is kept; see `rendered_scene.Environment`."""
+    object_ids: Mapping[int, str] = field(default_factory=dict)
+    """Instance id → id of the object in the scene; copies of one object share it."""
 
     def primitives(self, time_s: float) -> Primitives:
         """All shapes at that instant: actors, then scenery, then weather."""
@@ -158,6 +160,7 @@ def compose_scene(
     items = _label(_scatter_all(description, view, actors, nouns, seed), len(actors), nouns)
     names = {one.instance: one.noun.name for one in actors}
     names |= {one.instance: one.rule.noun for one in items if one.instance}
+    ids = object_ids(description)
     animated_environment = build_environment(
         description, place=ground, road=view.road, distance_m=camera_path.framing.distance_m,
         room_m=camera_path.room_m, corridor_m=camera_path.corridor_m,
@@ -181,6 +184,7 @@ def compose_scene(
          *_tell_dark(description, ground)),
         placer.orphans, tuple(items),
         list_strings(description, actors, animated_environment.base.ceiling_m, duration_s),
+        object_ids={one.instance: ids[one.object_index] for one in actors},
     )  # fmt: skip
 
 

@@ -253,17 +253,20 @@ def _idle_looks(where: str, one: SceneObject, noun: Noun) -> Iterator[Idle]:
         paint = rgb_of(colour)
         model = noun.build(colour=paint, scale=1.0, seed=0)
         parts = in_material(model, material, paint).parts(Pose(0.0, 0.0, 0.0, "stand"))
-        return [(each.colour, each.second_colour, each.texture) for each in parts]
+        return [(each.colour, each.second_colour, each.texture, each.mesh) for each in parts]
 
     if one.colour is not None:
         tried = [build(each, one.material) for each in (one.colour, "red", "blue")]
         if all(each == tried[0] for each in tried):
             yield Idle(f"{where}.colour", f"a {one.noun} has colours of its own")
-    usual = build(None, None)
-    if one.material is not None and build(None, one.material) == usual:
+    is_mesh = any(mesh is not None for *_, mesh in build(None, None))
+    kept = one.colour if is_mesh else None
+    usual = build(kept, None)
+    if one.material is not None and build(kept, one.material) == usual:
         others = (each for each in get_args(Material) if build(None, each) != usual)
-        is_usual = next(others, None) is not None
+        is_usual = not is_mesh and next(others, None) is not None
         why = f"a {one.noun} is of it anyway, or cannot be of any other"
+        why = "a model of a file has only the colour of a material" if is_mesh else why
         yield Idle(f"{where}.material", why, is_usual)
     for name in ("blink_hz", "switch_s", "is_lit"):
         has_light = noun.name in LAMPS or noun.name in nouns_with("own effect")

@@ -16,12 +16,16 @@ from texvent.sensor import SensorSize
 from texvent_scenes.assets.index import Asset, read_folder
 from texvent_scenes.assets.model_file import MOST_NODES
 from texvent_scenes.assets.nouns import load_model, merge_nouns
-from texvent_scenes.mesh import LARGEST_SIDE, light_of
+from texvent_scenes.colours import rgb_of
+from texvent_scenes.mesh import LARGEST_SIDE, light_of, mean_colour
+from texvent_scenes.models.materials import has_colour
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.protocol import Pose
 from texvent_scenes.named_files import check_files
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
+from texvent_scenes.scene_input import describe_scene, nouns_of
 from texvent_scenes.spec.files import load_scene
+from texvent_scenes.spec.scene import Scene, SceneObject
 
 
 def test_a_scene_brings_models_by_path(tmp_path):
@@ -92,6 +96,28 @@ def test_what_is_no_list_of_files_is_passed(described):
 
 
 AXES = ("x", "-x", "y", "-y", "z", "-z")
+
+
+@pytest.mark.parametrize("colour", ["red", "#0040ff", "dark green"])
+@pytest.mark.parametrize("ending", ["glb", "obj", "ply"])
+@pytest.mark.parametrize("material", [None, "brass", "striped"])
+def test_a_model_with_or_without_materials_is_painted_in_a_stated_colour(
+    tmp_path, ending, colour, material
+):
+    write_bar(path := tmp_path / f"bar.{ending}")
+    one = SceneObject("bar", model=str(path), colour=colour, material=material)
+    nouns = nouns_of(Scene(objects=(one,)), NOUNS)
+    if material is not None:
+        with pytest.raises(ConfigError, match="material has no effect: a model of a file has only"):
+            describe_scene(Scene(objects=(one,)), nouns)
+        return
+    describe_scene(Scene(objects=(one,)), nouns)
+    (part,) = (
+        nouns["bar"].build(colour=rgb_of(colour), scale=1.0, seed=0).parts(Pose(0.0, 0.0, 0.0))
+    )
+    np.testing.assert_allclose(mean_colour(part.mesh), rgb_of(colour), atol=1e-3)
+    assert has_colour([part], rgb_of(colour))
+    assert not has_colour([part], rgb_of("yellow"))
 
 
 @pytest.mark.parametrize("ending", ["glb", "obj", "ply"])
