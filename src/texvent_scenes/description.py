@@ -27,6 +27,10 @@ class IndexedRelation:
     targets: tuple[int, ...]
     """Indices of objects; the subject itself is its target if its copies collide."""
     distance_m: float | None = None
+    start_s: float | None = None
+    """Stated time at which an act begins, s."""
+    direction: str | None = None
+    """Stated way of who runs into something."""
 
 
 SEEN = "seen"

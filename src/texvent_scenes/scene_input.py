@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from functools import lru_cache
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -232,11 +233,14 @@ def check_words(scene: Scene, assets: str | Path | None = None) -> Scene:
 
 def _refuse_idle(scene: Scene, nouns: Mapping[str, Noun]) -> Scene:
     from texvent_scenes.staging.idle_acts import list_idle_acts
+    from texvent_scenes.staging.idle_in_acts import list_idle_in_acts
 
     # In a sentence, and in a file written from it, an act and a word for how its parts go tell the
     # same: "turns and picks up".
-    of_acts = () if scene.prompt else list_idle_acts(scene)
-    for idle in (*_list_idle(scene, nouns), *of_acts):
+    of_acts: tuple[Iterator[Idle], ...] = ()
+    if not scene.prompt:
+        of_acts = list_idle_acts(scene), list_idle_in_acts(scene, nouns)
+    for idle in chain(_list_idle(scene, nouns), *of_acts):
         if not idle.is_usual:
             raise ConfigError(f"{idle.path} has no effect: {idle.why}")
     return scene

@@ -39,7 +39,7 @@ from texvent_scenes.spec.scene import (
 )
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.idle_surroundings import MOST_NAMED, Idle, idle_light, idle_place
-from texvent_scenes.staging.interactions.perform import in_hand
+from texvent_scenes.staging.interactions.settling import in_hand
 from texvent_scenes.staging.tracks.choose_track import choose_track
 from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2
 from texvent_scenes.staging.tracks.motion_plan import plan_motion
@@ -133,13 +133,13 @@ class _Body:
         usual = Motion("stand")
         without = _with(one, number, **{name: getattr(usual, name)})
         given = getattr(one.motions[number], name)
-        probes = _probes(given)
+        tried = probes(given)
         is_turn = one.motions[number].kind == "turn"
         is_headed = one.heading_deg is not None and not is_turn
         # It may go to and fro along one way, or turn to either side of it.
         if name == "direction" and (self.noun.is_working or is_headed):
-            probes = next((pair for pair in _OPPOSITE if given in pair), probes)
-        return any(self.differ(_with(one, number, **{name: probe}), without) for probe in probes)
+            tried = next((pair for pair in _OPPOSITE if given in pair), tried)
+        return any(self.differ(_with(one, number, **{name: probe}), without) for probe in tried)
 
     def lands_at(self, one: SceneObject, number: int) -> float | None:
         """Instant at which it is down before it bounces, s; None where nothing falls before."""
@@ -195,7 +195,7 @@ def _with(one: SceneObject, number: int, **changes: Any) -> SceneObject:
     return replace(one, motions=tuple(motions))
 
 
-def _probes(given: Any) -> Iterable[Any]:
+def probes(given: Any) -> Iterable[Any]:
     """The value of a field, and others that say something of the same kind."""
     if isinstance(given, str):
         alike = [kind for kinds in _ALIKE if given in kinds for kind in kinds]

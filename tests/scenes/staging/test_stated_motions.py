@@ -111,6 +111,24 @@ def test_a_lamp_that_blinks_does_not_make_it_night_in_a_file(row):
     assert understand("an LED blinks", NOUNS).light.kind == "night"
 
 
+@for_every(itertools.product(
+    (one for one in sorted(nouns_with("flat pattern") | nouns_with("flat picture"))
+     if not NOUNS[one].is_working),
+    (-60, -150, 60, 120),
+    ("clockwise", "counter-clockwise"), ((), ("rise",), ("tilt",)),
+))  # fmt: skip
+def test_a_board_that_spins_shows_its_stated_side_and_turns_as_the_camera_sees_it(row):
+    noun, heading, way, later = row
+    motions = (Motion("spin", way, rate_hz=0.2), *map(Motion, later))
+    one = SceneObject(noun, heading_deg=heading, motions=motions)
+    describe_scene(Scene(objects=(one,)), NOUNS)
+    first, second = (place(one)[0].track.at(t).to_world()[:, :3] for t in (0.0, 0.4))
+    front = [math.cos(math.radians(heading)), math.sin(math.radians(heading)), 0.0]
+    np.testing.assert_allclose([first[:, 0], second[:, 0]], [front, front], atol=1e-6)
+    # Its top goes to the right of who looks along y.
+    assert (second[0, 2] - first[0, 2]) * (1.0 if way == "clockwise" else -1.0) > 0.1
+
+
 @for_every(itertools.product(("box", "car", "turntable", "drone", "dog", "boat"), (0, 30, -135),
                              ("clockwise", "counter-clockwise", "left"), (None, 0.4)))  # fmt: skip
 def test_what_spins_has_its_heading_at_time_0_and_its_sense(row):

@@ -15,10 +15,11 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from texvent_scenes.models.activities import ACTIVITIES, ON_TOP
+from texvent_scenes.models.activities import ACTIVITIES, HAND_NOUNS, ON_TOP
 from texvent_scenes.models.shapes import bounds, moved, point, shift
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor, size_of
+from texvent_scenes.staging.interactions.by_hand import BY_HAND, act_by_hand
 from texvent_scenes.staging.interactions.holding import (
     held_at,
     is_person,
@@ -86,6 +87,8 @@ IMPACTS: Mapping[str, Impact] = MappingProxyType(
 """Relation → how its bodies meet."""
 _FLUNG_M_S, _RESTITUTION = 6.0, 0.55
 """Speed at which things fly off that have no usual one; what each bounce keeps of it."""
+LEAD_S = 0.45
+"""Time from the stated start of an act to its contact."""
 _TURN_ROUND_S = 0.08
 """Duration of the change of speed at the contact."""
 _DELIVERED_M, _MOST_FLIGHT_S, _LOW = 4.0, 1.0, 0.12
@@ -113,13 +116,17 @@ def strike(
 ) -> tuple[Actor, Actor]:  # fmt: skip
     """Both bodies of an act of `IMPACTS`, bound by the instant of contact."""
     act = IMPACTS[kind]
-    contact_s = contact_time(duration_s, act.share)
+    contact_s = subject.track.contact_s
+    if contact_s is None:
+        contact_s = contact_time(duration_s, act.share)
     if kind == "hit" and is_person(subject):  # others run against it
         return _bat(act, subject, thing, contact_s)
     if act.activity is None:
         meet = _knock_over if kind == "knock over" else _run_together
         return meet(subject, thing, contact_s)
     home = subject.track.at(0.0)
+    if subject.noun.name in HAND_NOUNS and kind in BY_HAND:
+        return act_by_hand(kind, subject, thing, contact_s)
     if act.is_caught:
         return _catch(act, subject, thing, contact_s)
     is_limbed = is_person(subject) or act.is_held

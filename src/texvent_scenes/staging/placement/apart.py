@@ -18,8 +18,6 @@ from texvent_scenes.description import IndexedRelation, SceneDescription
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.anchors import Support
 from texvent_scenes.rendered_scene import Float64Array
-from texvent_scenes.spec.data import HANDLED
-from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.placement.object_groups import ObjectGroup
 
 SIDES = {"left of": (-1.0, 0.0), "right of": (1.0, 0.0), "behind": (0.0, 1.0),
@@ -27,7 +25,7 @@ SIDES = {"left of": (-1.0, 0.0), "right of": (1.0, 0.0), "behind": (0.0, 1.0),
 """Relation with a distance → where its subject is, seen from the target, on the ground."""
 RESTING = ("on", "in")
 """Relations to what bears a thing."""
-_EXACT_M, _PLACED_M, _AT_HAND_M = 1e-4, 0.02, 0.1
+_EXACT_M = 1e-4
 _PERSON_M = 0.25
 """Half of the room of a person on something."""
 
@@ -355,33 +353,6 @@ def list_beside(
                          for sign in (-1.0, 1.0))  # fmt: skip
             ends = (f"({x:.2f}, {y:.2f})" for x, y in (low, high))
             yield n, f"which is beside the {frame.name}: that has room from {' to '.join(ends)} m"
-
-
-def list_moved(
-    description: SceneDescription, placed: Sequence[Actor], acting: Sequence[Actor]
-) -> Iterator[tuple[int, str]]:
-    """Things with a stated position that their act puts elsewhere, and why.
-
-    Args:
-        description: the scene.
-        placed: bodies before their acts.
-        acting: bodies in these.
-    """
-    before = {one.object_index: one.track.at(0.0).position for one in placed}
-    handled = {n: one.kind for one in description.relations if one.kind in HANDLED
-               for n in one.targets[:1]}  # fmt: skip
-    for one in acting:
-        said = description.objects[one.object_index]
-        off = np.subtract(one.track.at(0.0).position, before[one.object_index])
-        is_handled = one.object_index in handled
-        is_bound = said.position_m is None or said.count > 1
-        is_bound |= one.track.anchor is not None and not is_handled
-        if not is_bound and float(np.linalg.norm(off[:2])) > _PLACED_M:
-            yield one.object_index, "from where what it does is not possible"
-        elif not is_bound and handled.get(one.object_index) == "lift" and abs(off[2]) > _AT_HAND_M:
-            way = "higher" if off[2] > 0.0 else "lower"
-            why = f"what lifts it has it {abs(off[2]):.2f} m {way} at first"
-            yield one.object_index, f"from where what it does is not possible: {why}"
 
 
 def borne_places(description: SceneDescription, index: int) -> list[tuple[float, float]]:

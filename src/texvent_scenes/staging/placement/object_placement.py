@@ -21,7 +21,8 @@ from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.data import WAYS
 from texvent_scenes.staging.actors import Actor, is_centred, lowest_point, seeded, size_of
 from texvent_scenes.staging.camera.journey import TravelPlan
-from texvent_scenes.staging.interactions.perform import perform_acts, settle_motions
+from texvent_scenes.staging.interactions.perform import perform_acts
+from texvent_scenes.staging.interactions.settling import settle_motions
 from texvent_scenes.staging.placement.along_route import RoutePlacer
 from texvent_scenes.staging.placement.apart import (
     RESTING,
@@ -29,11 +30,10 @@ from texvent_scenes.staging.placement.apart import (
     borne_places,
     is_measured,
     list_awaited,
-    list_beside,
-    list_moved,
     list_unkept,
     plan_spacing,
 )
+from texvent_scenes.staging.placement.kept_places import refuse_beside, refuse_moved
 from texvent_scenes.staging.placement.object_groups import (
     Goal,
     ObjectGroup,
@@ -130,19 +130,14 @@ class ObjectPlacer:
         for index in sorted(range(len(objects)), key=lambda one: objects[one].position_m is None):
             if index not in self.orphans:
                 self._place(index, frozenset())
-        for n, why in list_beside(self._description, self.groups):
-            x, y = objects[n].position_m or (0.0, 0.0)
-            raise ConfigError(f"objects[{n}].position_m is [{x:g}, {y:g}], {why}; give another one")
+        refuse_beside(self._description, self.groups)
         for one, why in list_unkept(self._description, self.groups):
             self._tell_distance(one, why)
         actors: list[Actor] = []
         for index in sorted(self.groups):
             actors.extend(self._populate(self.groups[index], len(actors)))
         acting = perform_acts(self._description, actors, self._duration_s)
-        for n, why in list_moved(self._description, actors, acting):
-            x, y = objects[n].position_m or (0.0, 0.0)
-            raise ConfigError(f"objects[{n}].position_m is [{x:g}, {y:g}], {why}; "
-                              "leave it out, or what it is on")  # fmt: skip
+        refuse_moved(self._description, actors, acting)
         return acting
 
     @staticmethod

@@ -156,11 +156,8 @@ def _spin(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Track:
     turn = Term(plan.spin_axis, drift=usual * plan.motion.pace, gain=usual * _gain(plan))
     if plan.spin_axis == "yaw":
         return replace(steady(home, plan.yaw if plan.is_headed else phase), terms=(turn,))
-    lift = 0.0
-    if plan.is_facing:
-        lift = spin_lift(model)
-    yaw = TO_CAMERA if plan.is_facing else plan.yaw
-    rest = steady(_raised(home, lift), yaw)
+    lift = spin_lift(model) if plan.spin_axis == "roll" else 0.0
+    rest = steady(_raised(home, lift), TO_CAMERA if plan.is_facing else plan.yaw)
     return replace(rest, terms=(turn,), pivot_m=axle_of(model, plan.spin_axis).height_m)
 
 

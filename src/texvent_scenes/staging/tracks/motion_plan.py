@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -18,7 +18,7 @@ from texvent_scenes.models.activities import (
 )
 from texvent_scenes.models.protocol import Model, Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
-from texvent_scenes.spec.scene import Motion
+from texvent_scenes.spec.scene import Direction, Motion
 from texvent_scenes.staging.tracks.flight_keys import falls_sideways
 from texvent_scenes.staging.tracks.phase_keys import build_path
 from texvent_scenes.staging.tracks.phases import (
@@ -40,6 +40,11 @@ from texvent_scenes.staging.tracks.turning import axle_of
 _OF_CAMERA, _LOOMING = ("towards", "away"), 45.0
 """Directions in depth; most way of what flies so in a clip, in its own sizes: farther off it is a
 point."""
+_MIRRORED: Mapping[str, Direction] = {
+    "clockwise": "counter-clockwise", "counter-clockwise": "clockwise",
+    "right": "left", "left": "right",
+}  # fmt: skip
+"""Sense of a spin → that of the same one, seen from behind."""
 _DIAGONAL = 0.6
 """Metres up per metre along of what goes diagonally in the picture."""
 _TALL = 1.2
@@ -144,12 +149,16 @@ def plan_motion(
         return MotionPlan(motion, yaw, speed, duration_s, work=(stopped,))
     is_wheeled = noun.motion == "drive" or getattr(model, "is_wheeled", False)
     going = next((one for one in motions if one.kind != "stand"), motion)
-    is_facing = _faces_camera(noun, model, going)
+    is_flat = _faces_camera(noun, model, going)
+    is_facing = is_flat and (heading_deg is None or going.kind in PATH_KINDS | {"orbit"})
+    if is_flat and not is_facing and math.sin(yaw) > 0.0:
+        motions = [_seen_from_behind(one) for one in motions]
+        motion = motions[0]
     axle = "pitch" if noun.name in nouns_with("has an axle") else "yaw"
     plan = MotionPlan(
         motion, yaw, speed, duration_s, is_facing=is_facing, start_m=start_m,
         radius_m=_rolling_radius(model) if motion.kind == "roll" and not is_wheeled else 0.0,
-        spin_axis="roll" if is_facing else axle, is_laid=is_tall and motion.kind == "lie", act=act,
+        spin_axis="roll" if is_flat else axle, is_laid=is_tall and motion.kind == "lie", act=act,
         is_headed=heading_deg is not None,
     )  # fmt: skip
     is_straight = goes_straight_up(motion, noun)
@@ -209,6 +218,13 @@ def _as_it_does(noun: Noun, motion: Motion, start_m: float) -> Motion:
     falls_over = noun.name in nouns_with("falls over") or falls_sideways(noun)
     is_falling_over = motion.kind == "fall" and falls_over and start_m < 0.1
     return replace(motion, kind="topple") if is_falling_over else motion
+
+
+def _seen_from_behind(motion: Motion) -> Motion:
+    """A spin of what shows its back: clockwise as the camera sees it is not as its front has it."""
+    if motion.kind != "spin" or motion.direction not in _MIRRORED:
+        return motion
+    return replace(motion, direction=_MIRRORED[motion.direction])
 
 
 def _choose_yaw(motions: Sequence[Motion], noun: Noun, model: Model, toss: float) -> float:

@@ -19,6 +19,7 @@ from texvent_scenes.models.tables import trait_values
 from texvent_scenes.scene_input import describe_scene
 from texvent_scenes.spec.scene import Motion, Place, Relation, Scene, SceneObject
 from texvent_scenes.staging.compose import compose_scene
+from texvent_scenes.staging.interactions.by_hand import BY_HAND
 
 HELD = ("checkerboard", "mug", "sign", "box")
 TURNS = ("tilt", "sway", "spin", "rotate")
@@ -157,7 +158,8 @@ def middles_of(who, kind, thing, habitat):
     scene = compose_scene(said, seed=0, size=SIZE, duration_s=3.0, nouns=nouns)
     actors = sorted(scene.actors, key=lambda one: one.object_index)
     found = np.array([[one.middle(t) for one in actors] for t in np.linspace(0.0, 2.9, 9)])
-    return found - found[:1, 1:] * (kind == "ride")  # what is ridden stands where it lives
+    comes = kind == "ride" or (who == "hand" and kind in (*BY_HAND, "move over"))
+    return found - found[:1, 1:] * comes  # to what stands where it lives
 
 
 SIZES_M = {"box": (0.2, 0.25, 0.3), "hammer": (0.05, 0.04, 0.3), "mug": (0.1, 0.1, 0.12)}

@@ -1,0 +1,133 @@
+"""What a file states of bodies in acts is kept, or refused: places, headings, times, motions."""
+
+import itertools
+
+import numpy as np
+import pytest
+from tests.scenes.every_row import for_every
+from tests.scenes.staged import place
+
+from texvent.errors import ConfigError
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.scene_input import describe_scene
+from texvent_scenes.spec.scene import Motion, Relation, Scene, SceneObject
+from texvent_scenes.staging.interactions.by_hand import BY_HAND
+from texvent_scenes.staging.interactions.striking import IMPACTS, LEAD_S
+
+BODIES = (("man", "ball"), ("woman", "box"), ("hand", "mug"), ("dog", "ball"), ("car", "box"),
+          ("robot arm", "mug"), ("man", "horse"), ("man", "bicycle"))  # fmt: skip
+PLACES = (
+    (None, (2.0, 1.0)),
+    ((2.0, 1.0), None),
+    ((0.0, 1.0), (2.0, 1.0)),
+    ((0.0, 1.0), (0.0, 2.5)),
+)
+TIMES = np.linspace(0.0, 1.9, 20)
+
+
+def act(kind, pair, *fields):
+    """Both objects of an act."""
+    who, what = (SceneObject(noun, **own) for noun, own in zip(pair, fields, strict=True))
+    relation = Relation(kind, (what.noun,))
+    return SceneObject(**{**vars(who), "relations": (relation,)}), what
+
+
+def accepted(*objects):
+    """The bodies of a file; None: it is refused."""
+    try:
+        describe_scene(Scene(objects=objects), NOUNS)
+        return place(*objects)
+    except ConfigError:
+        return None
+
+
+def paths(bodies):
+    return [(one.object_index, [one.track.at(t).to_world() for t in TIMES],
+             [one.pose(t) for t in TIMES]) for one in bodies]  # fmt: skip
+
+
+def alike(one, other):
+    return len(one) == len(other) and all(
+        a[0] == b[0] and a[2] == b[2] and np.allclose(a[1], b[1])
+        for a, b in zip(one, other, strict=True)
+    )
+
+
+@for_every(itertools.product(KINDS, BODIES, PLACES))
+def test_bodies_of_an_act_begin_where_they_are_stated_or_the_file_is_refused(row):
+    kind, pair, places = row
+    objects = act(kind, pair, *({"position_m": one} for one in places))
+    for one in accepted(*objects) or ():
+        said = objects[one.object_index].position_m
+        reach = 1.0 if kind == "ride" else 0.02
+        if said is not None:
+            assert np.hypot(*np.subtract(one.track.at(0.0).position[:2], said)) <= reach
+
+
+@for_every(
+    itertools.product(
+        [one for one in KINDS if one not in ("ride", "rally")], BODIES[:6], (0, 1), (-30.0, 100.0)
+    )
+)
+def test_bodies_of_an_act_have_their_stated_headings_or_the_file_is_refused(row):
+    kind, pair, turned, heading = row
+    fields = [{"heading_deg": heading} if n == turned else {} for n in (0, 1)]
+    for one in accepted(*act(kind, pair, *fields)) or ():
+        if one.object_index == turned:
+            off = np.radians(heading) - one.track.at(0.0).yaw
+            assert np.cos(off) == pytest.approx(1.0, abs=1e-3)
+
+
+MOTIONS = (Motion("walk", "left", speed_m_s=1.0), Motion("drive", "away"), Motion("jump"),
+           Motion("spin", rate_hz=0.4), Motion("roll", "right", start_s=0.7))  # fmt: skip
+
+
+@for_every(itertools.product([one for one in KINDS if one != "wear"], BODIES, (0, 1), MOTIONS))
+def test_a_motion_of_a_body_in_an_act_changes_something_or_is_refused(row):
+    kind, pair, mover, motion = row
+    fields = [{"motions": (motion,)} if n == mover else {} for n in (0, 1)]
+    bodies = accepted(*act(kind, pair, *fields))
+    usual = accepted(*act(kind, pair, {}, {}))
+    if bodies is not None and usual is not None:
+        assert not alike(paths(bodies), paths(usual))
+
+
+@for_every(itertools.product(
+    [kind for kind, one in IMPACTS.items() if one.activity is not None and kind in KINDS],
+    (("man", "ball"), ("woman", "box"), ("hand", "mug")), (0.0, 0.4, 1.0),
+))  # fmt: skip
+def test_an_act_begins_at_its_stated_time(row):
+    kind, pair, start_s = row
+    if pair[0] == "hand" and kind not in BY_HAND:
+        return
+    doing = IMPACTS[kind].activity
+    bodies = accepted(*act(kind, pair, {"motions": (Motion(doing, start_s=start_s),)}, {}))
+    assert bodies is not None
+    contact_s, (who, thing) = start_s + LEAD_S, bodies
+    assert pair[0] == "hand" or who.track.contact_s == pytest.approx(contact_s)
+    steps = [np.linalg.norm(np.subtract(*(thing.track.at(t + d).position for d in (0.01, 0.0))))
+             for t in (contact_s - 0.03, contact_s + 0.03)]  # fmt: skip
+    assert abs(steps[0] - steps[1]) > 1e-4 or kind == "roll"
+
+
+@for_every(itertools.product(BY_HAND, ("mug", "bottle", "ball", "hammer", "box"), (False, True)))
+def test_a_hand_alone_does_its_act_from_where_the_thing_is(row):
+    kind, noun, is_borne = row
+    on = (Relation("on", ("table",)),) if is_borne else ()
+    table = (SceneObject("table"),) * is_borne
+    who, thing = act(kind, ("hand", noun), {}, {"relations": on})
+    bodies = accepted(who, thing, *table)
+    assert bodies is not None
+    moved = next(one for one in bodies if one.noun.name == noun)
+    first, last = moved.lowest_m(0.0), moved.lowest_m(1.95)
+    level = next((one.model.height for one in bodies if one.noun.name == "table"), 0.0)
+    low, high = (first, last) if kind == "lift" else (last, first)
+    assert low == pytest.approx(level, abs=0.03)
+    assert high - low > 0.25
+
+
+def test_only_the_first_of_several_targets_is_acted_on_and_others_are_refused():
+    boxes = (SceneObject("box"), SceneObject("box"))
+    who = SceneObject("man", relations=(Relation("push", ("box", "box 2")),))
+    with pytest.raises(ConfigError, match=r"objects\[0\]\.relations\[0\]\.to\[1\] has no effect"):
+        describe_scene(Scene(objects=(who, *boxes)), NOUNS)
