@@ -15,9 +15,11 @@ from texvent_scenes.staging.interactions.perform import ACTS
 from texvent_scenes.staging.placement.apart import list_beside
 from texvent_scenes.staging.placement.object_groups import ObjectGroup
 
-_PLACED_M, _AT_HAND_M, _TURNED_DEG, _SEATED = 0.02, 0.1, 1.0, 0.3
+_PLACED_M, _AT_HAND_M, _TURNED_DEG = 0.02, 0.1, 1.0
 """Most way from a stated place; most height of a thing over it at which a hand has it; most turn
-from a stated heading; most distance of a rider's place from that of what is ridden, in its sizes."""
+from a stated heading."""
+_SEATED = 0.3
+"""Most distance of a rider's place from that of what is ridden, in its sizes."""
 
 
 def refuse_beside(description: SceneDescription, groups: Mapping[int, ObjectGroup]) -> None:

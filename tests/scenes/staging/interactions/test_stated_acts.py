@@ -1,6 +1,7 @@
 """What a file states of bodies in acts is kept, or refused: places, headings, times, motions."""
 
 import itertools
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -10,18 +11,16 @@ from tests.scenes.staged import place
 from texvent.errors import ConfigError
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.scene_input import describe_scene
-from texvent_scenes.spec.scene import Motion, Relation, Scene, SceneObject
+from texvent_scenes.spec.scene import Motion, Relation, RelationKind, Scene, SceneObject
 from texvent_scenes.staging.interactions.by_hand import BY_HAND
+from texvent_scenes.staging.interactions.perform import ACTS
 from texvent_scenes.staging.interactions.striking import IMPACTS, LEAD_S
 
 BODIES = (("man", "ball"), ("woman", "box"), ("hand", "mug"), ("dog", "ball"), ("car", "box"),
           ("robot arm", "mug"), ("man", "horse"), ("man", "bicycle"))  # fmt: skip
-PLACES = (
-    (None, (2.0, 1.0)),
-    ((2.0, 1.0), None),
-    ((0.0, 1.0), (2.0, 1.0)),
-    ((0.0, 1.0), (0.0, 2.5)),
-)
+KINDS = sorted(set(get_args(RelationKind)) & set(ACTS))
+PLACES = ((None, (2.0, 1.0)), ((2.0, 1.0), None), ((0.0, 1.0), (2.0, 1.0)),
+          ((0.0, 1.0), (0.0, 2.5)))  # fmt: skip
 TIMES = np.linspace(0.0, 1.9, 20)
 
 
