@@ -115,7 +115,8 @@ def _join_lost(draft: SceneDraft, ends: Sequence[str]) -> None:
         is_lost = end == "lost" and not any(one.is_open for one in draft.claims.get(token.at, ()))
         is_between = token.has(*_BETWEEN) or token.text in word_set("things", "grammar") | {"to"}
         if token.text in ("and", "or"):  # "white and red streaks"
-            is_between = phrase[-1:] == [draft.beside(token, -1)] and phrase[-1].has("field")
+            sides = [draft.beside(token, step) for step in (-1, 1)]
+            is_between = phrase[-1:] == sides[:1] and all(one.has("field") for one in sides)
         if (is_between and not end) or draft.fates.get(token.at) == "":
             continue
         if is_lost and (not phrase or len(draft.phrase_of(phrase[0], token)) <= _LONGEST):
