@@ -61,10 +61,10 @@ class PromptReport:
         ...     scene=("1 dog, runs",),
         ...     shown=("runs",),
         ...     substituted=(Substitution("spaniel", "dog"),),
-        ...     not_understood=("wug",),
+        ...     not_understood=("red wug",),
         ... )
         >>> report.lines()
-        ['1 dog, runs', 'shown as something else: spaniel → dog', 'not understood: wug']
+        ['1 dog, runs', 'shown as something else: spaniel → dog', 'not understood: red wug']
         >>> PromptReport.from_json(report.to_json()) == report
         True
     """
@@ -76,7 +76,8 @@ class PromptReport:
     substituted: tuple[Substitution, ...] = ()
     """Words that are shown as something else."""
     not_understood: tuple[str, ...] = ()
-    """Words that had no effect on the scene, in order, each once."""
+    """Words that had no effect on the scene, in order; those that stand together are one entry,
+    such as "orange gizmo in the background"."""
     not_shown: tuple[str, ...] = ()
     """Parts that cannot be shown, such as "the man's jump after 5 s (the clip ends at 2 s)"."""
     uncertain: tuple[str, ...] = ()
@@ -109,9 +110,11 @@ class PromptReport:
     def kinds(self) -> dict[str, list[str]]:
         """Kind of fault → its words or objects."""
         near = dict(one.split(": ", 1) for one in self.meant)
+        meant = {phrase: [near[one] for one in phrase.split() if one in near]
+                 for phrase in self.not_understood}  # fmt: skip
         lost = [
-            f"{word} (did you mean {near[word]!r}?)" if word in near else word
-            for word in self.not_understood
+            f"{phrase} (did you mean {' and '.join(map(repr, words))}?)" if words else phrase
+            for phrase, words in meant.items()
         ]
         return {
             "shown as something else": [str(one) for one in self.substituted],

@@ -107,8 +107,8 @@ def _hint(reading: Reading) -> str:
     from texvent_scenes.read.parsing.lexicon import lexicon_of
     from texvent_scenes.read.parsing.tokens import split_prompt
 
-    words = ((one, split_prompt(one, lexicon_of(None))) for one in reading.not_understood)
-    known = [one for one, tokens in words if len(tokens) == 1 and tokens[0].has("noun")]
+    words = (split_prompt(one, lexicon_of(None)) for one in reading.not_understood)
+    known = [one.text for tokens in words for one in tokens if one.has("noun")]
     return f"known alone: {few(known, MOST_WORDS)}; say it in a plainer sentence; " if known else ""
 
 
@@ -322,7 +322,7 @@ def _meant(words: Iterable[str], nouns: Mapping[str, Noun]) -> Iterator[str]:
     for key, noun in nouns.items():
         for name in (key, *noun.synonyms):
             initials.setdefault(name[0], set()).add(name)
-    for word in words:
+    for word in dict.fromkeys(one for phrase in words for one in phrase.split()):
         is_open = len(word) > _SHORT and (word.lower(),) not in known
         names = initials.get(word[0].lower(), ()) if is_open else ()
         near = get_close_matches(word.lower(), names, 1, _NEAR)

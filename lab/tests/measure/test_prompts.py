@@ -55,7 +55,7 @@ def test_strips_are_drawn_with_the_report(tmp_path, monkeypatch, capsys):
     assert run(monkeypatch, *words) == 0
     assert "1/2  a1: drawn" in capsys.readouterr().out
     drawn, refused = json.loads((tmp_path / "out" / "reports.json").read_text())["prompts"]
-    assert "wug" in drawn["report"]["not_understood"]
+    assert "next to a wug" in drawn["report"]["not_understood"]
     assert "nothing in the prompt was understood" in refused["error"]
     strip = cv2.imread(str(tmp_path / "out" / "strips" / "a1.png"))
     assert strip.shape[1] == 6 * 173 + 5 * 2

@@ -46,7 +46,7 @@ class ReadPrompt(Protocol):
 
     @property
     def not_understood(self) -> tuple[str, ...]:
-        """Words that had no effect on the scene."""
+        """Words that had no effect on the scene; those that stand together are one entry."""
         ...
 
     @property

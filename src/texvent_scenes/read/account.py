@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from texvent.errors import MAX_WORD
 from texvent.prompt_report import Substitution
 from texvent_scenes.description import Claim, Dependence
 from texvent_scenes.models.activities import PERSON_NOUNS, SAT
@@ -20,6 +21,15 @@ from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
 from texvent_scenes.spec.data import scene_from_data
 from texvent_scenes.spec.scene import Scene, number_nouns
 
+_BETWEEN = ("articles", "pronouns")
+"""Kinds of words that join lost ones, as words of `grammar` do but for conjunctions."""
+_DRAWN = ("noun", "place", "effect", "hollow")
+"""Kinds of heads, which have words before them."""
+_LEADING = ("relation", "small", "adverb")
+"""Kinds of words before a head that are none of its own."""
+_LONGEST = 2 * MAX_WORD
+"""Characters of lost words that are told as one: a report shortens what is longer."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Reading:
@@ -31,7 +41,7 @@ class Reading:
     substituted: tuple[Substitution, ...]
     """Words that are shown as something else."""
     not_understood: tuple[str, ...]
-    """Words without effect on the scene."""
+    """Words without effect on the scene, a phrase each where they stand together."""
     claims: tuple[Claim, ...] = ()
     """Words, of both lists, of which only the staged scene tells whether it shows them."""
     dependences: tuple[Dependence, ...] = ()
@@ -61,19 +71,12 @@ def _reach_speed(motion: dict[str, Any], noun: Noun) -> None:
 def finish(draft: SceneDraft, prompt: str) -> Reading:
     """The scene, and its words; one that is lost at one place of the prompt is not shown."""
     complete(draft)
+    pairs = zip(draft.tokens, (*draft.tokens[1:], NO_TOKEN), strict=False)
+    ends = [_decide(draft, token, after) for token, after in pairs]
+    _join_lost(draft, ends)
     fates: dict[str, str] = {}
-    for token, after in zip(draft.tokens, (*draft.tokens[1:], NO_TOKEN), strict=False):
-        is_open = token.is_sign or token.is_grammar
-        is_open |= token.text == "to" and bool(after.verbs("base"))  # "starts to spin"
-        is_begun = token.text in word_set("things", "aspects")
-        is_open &= not is_begun or after.text == "to" or bool(after.verbs("ing"))
-        if token.has("small") and after.has("adverb", "negations") and draft.shows(after):
-            draft.show(token)  # "at 50 km/h", "with no cars"
-        if token.has("style") and " " in token.text:
-            draft.show(token)  # "in front of the camera"
-        fate = draft.fates.get(token.at, "" if is_open else "lost")
-        fate = "shown" if fate == "camera" and _sees_itself(draft) else fate
-        text = draft.compounds.get(token.at, token.text)
+    for token, fate in zip(draft.tokens, ends, strict=True):
+        text = draft.text_of(token)
         if fate == "lost" or (fate and fates.get(text, "shown") == "shown"):
             fates[text] = fate
     others = [one for one in fates.items() if one[1] not in ("shown", "lost")]
@@ -86,6 +89,46 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
         claims=tuple(_list_claims(draft)),
         dependences=tuple(_list_dependences(draft, lost)),
     )
+
+
+def _decide(draft: SceneDraft, token: Token, after: Token) -> str:
+    """What becomes of a token in the end; "" where there is nothing to tell of it."""
+    is_open = token.is_sign or token.is_grammar
+    is_open |= token.text == "to" and bool(after.verbs("base"))  # "starts to spin"
+    is_begun = token.text in word_set("things", "aspects")
+    is_open &= not is_begun or after.text == "to" or bool(after.verbs("ing"))
+    if token.has("small") and after.has("adverb", "negations") and draft.shows(after):
+        draft.show(token)  # "at 50 km/h", "with no cars"
+    if token.has("style") and " " in token.text:
+        draft.show(token)  # "in front of the camera"
+    fate = draft.fates.get(token.at, "" if is_open else "lost")
+    return "shown" if fate == "camera" and _sees_itself(draft) else fate
+
+
+def _join_lost(draft: SceneDraft, ends: Sequence[str]) -> None:
+    """Tell lost words that stand together as one: "orange gizmo in the background".
+
+    What a check may still find stays apart, and each word before a thing that is drawn.
+    """
+    phrase: list[Token] = []
+    for token, end in zip((*draft.tokens, NO_TOKEN), (*ends, "."), strict=True):
+        is_lost = end == "lost" and not any(one.is_open for one in draft.claims.get(token.at, ()))
+        is_between = token.has(*_BETWEEN) or token.text in word_set("things", "grammar") | {"to"}
+        if token.text in ("and", "or"):  # "white and red streaks"
+            sides = [draft.beside(token, step) for step in (-1, 1)]
+            is_between = phrase[-1:] == sides[:1] and all(one.has("field") for one in sides)
+        if (is_between and not end) or draft.fates.get(token.at) == "":
+            continue
+        if is_lost and (not phrase or len(draft.phrase_of(phrase[0], token)) <= _LONGEST):
+            phrase.append(token)
+            continue
+        is_drawn, head = end != "lost" and token.has(*_DRAWN), token
+        while (
+            phrase and is_drawn and phrase[-1].at + 1 == head.at and not phrase[-1].has(*_LEADING)
+        ):
+            head = phrase.pop()
+        draft.join(phrase)
+        phrase = [token] if is_lost else []
 
 
 def _sees_itself(draft: SceneDraft) -> bool:
@@ -105,7 +148,7 @@ def _list_dependences(draft: SceneDraft, lost: Collection[str]) -> Iterator[Depe
     A prompt of which most clauses have a lost word is one clause. How the things of a clause go
     together is known only if the staged scene has them all.
     """
-    words = [(draft.compounds.get(one.at, one.text), one) for one in draft.tokens]
+    words = [(draft.text_of(one), one) for one in draft.tokens]
     clauses = [*_split_clauses(words, lost)]
     broken = [clause for clause in clauses if any(text in lost for text, _ in clause)]
     for clause in clauses:
@@ -158,7 +201,7 @@ def _list_claims(draft: SceneDraft) -> Iterator[Claim]:
     """Claims of words that are not lost at another place, where nothing is claimed of them."""
     lost = [one for one in draft.tokens if not draft.shows(one) and not one.is_grammar]
     claimed = {at for at, claims in draft.claims.items() if any(one.is_open for one in claims)}
-    closed = {one.text for one in lost if one.at not in claimed}
+    closed = {draft.text_of(one) for one in lost if one.at not in claimed}
     for at, claims in draft.claims.items():
         fate = draft.fates.get(at, "lost")
         claims = [one for one in claims if one.kind != "sit at" or not _has_seat(draft, one)]

@@ -109,7 +109,7 @@ def test_prompts_that_are_not_shown_as_they_say_are_counted_and_fail_the_set(fol
     said_of_set = capsys.readouterr().out
     wug = wug.replace("; 1 refused", "; 1 with words uncertain beside them (run); 1 refused")
     assert f"prompts  1 of 3 clips shown as they say{wug}" in said_of_set
-    assert "failed   1: nothing in the prompt was understood: qwerty, zxcv" in said_of_set
+    assert "failed   1: nothing in the prompt was understood: qwerty zxcv" in said_of_set
 
 
 def test_a_strict_data_set_is_refused_before_any_work(folder, capsys):

@@ -77,7 +77,7 @@ def test_a_prompt_that_fails_does_not_end_the_others(folder, capsys):
     (folder / "p.txt").write_text("qwerty zxcv\na wug and a dog run\n")
     assert run("batch", "p.txt", *QUICK) == 1
     said = capsys.readouterr().err
-    assert "failed   p.txt line 1: nothing in the prompt was understood: qwerty, zxcv" in said
+    assert "failed   p.txt line 1: nothing in the prompt was understood: qwerty zxcv" in said
     assert "warning  p.txt line 2: prompt words not understood: wug" in said
     assert "error: 1 of 2 samples failed" in said
     assert len(recordings(folder / "p")) == 1

@@ -68,7 +68,8 @@ def _not_understood(prompts: Sequence[str], settings: Settings) -> list[str]:
             report = report_prompt(prompt, settings, is_staged=False)
         except InputError:  # its sample fails
             continue
-        unknown = [] if report is None else [_plain(word) for word in report.not_understood]
+        lost = () if report is None else report.not_understood
+        unknown = [_plain(word) for phrase in lost for word in phrase.split()]
         words = [word for word in (unknown if words is None else words) if word in unknown]
     return [word for word in words or () if all(word in prompt for prompt in prompts)]
 

@@ -102,7 +102,8 @@ class SceneDraft(Abilities):
     """Number of a token → "lost", "shown", or the noun that it is shown as; "" = told with another
     one."""
     compounds: dict[int, str] = field(default_factory=dict)
-    """Number of a token → the compound of which it is the head, and which is shown as it."""
+    """Number of a token → the words that are told as one: the compound of which it is the head,
+    or the phrase with which it is lost."""
     before_sky: list[int] = field(default_factory=list)
     """Objects behind which only the sky is seen: "against the sunset"."""
     homes: list[tuple[Token, Token, str]] = field(default_factory=list)
@@ -240,6 +241,20 @@ class SceneDraft(Abilities):
         self.compounds[head.at] = f"{before.text} {head.text}"
         self.mark(before, "")
         self.mark(head, noun)
+
+    def text_of(self, token: Token) -> str:
+        """The words with which a token is told, or its own."""
+        return self.compounds.get(token.at, token.text)
+
+    def phrase_of(self, first: Token, last: Token) -> str:
+        """The words from one token up to another, each once."""
+        words = self.tokens[first.at : last.at + 1]
+        return " ".join(self.text_of(one) for one in words if self.fates.get(one.at) != "")
+
+    def join(self, tokens: Sequence[Token]) -> None:
+        """Tell tokens that are lost, with those between them, as one."""
+        text = self.phrase_of(tokens[0], tokens[-1]) if tokens else ""
+        self.compounds |= {one.at: text for one in tokens}
 
 
 def split_move(phrase: str) -> dict[str, Any]:

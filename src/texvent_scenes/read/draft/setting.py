@@ -88,7 +88,7 @@ def _pace_before(draft: SceneDraft, token: Token) -> dict[str, Any]:
 
 def _is_room_again(head: Token, place: Mapping[str, Any]) -> bool:
     """Whether "the room" is the one that was named: "a robot in a laboratory. The room is dark"."""
-    return head.text == "room" and "name" in place and is_room(place["name"])
+    return head.text in ("room", "floor") and "name" in place and is_room(place["name"])
 
 
 def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> None:
@@ -116,9 +116,9 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
     elif is_room(name) and place.get("name") == "indoor":
         place["name"] = name
         draft.show(head)
-    elif (name == "sky" and is_said) or place.setdefault("name", name) == name or (
-        head.is_liquid and place["name"] in word_set("things", "waters")
-    ):  # fmt: skip
+    elif (name == "sky" and is_said) or (
+        place.setdefault("name", name) == name or place["name"] in _true_of(head)
+    ):  # "grass" in a park
         draft.mark(head, name if head.text in word_set("things", "stand_ins") else "shown")
 
 

@@ -9,6 +9,7 @@ from functools import cache
 from texvent_scenes.models.people.outfit import can_be_worn
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.parsing.groups import (
+    HEADS,
     MODIFIERS,
     Group,
     GroupReader,
@@ -17,7 +18,7 @@ from texvent_scenes.read.parsing.groups import (
     nouns_of,
 )
 from texvent_scenes.read.parsing.lexicon import lexicon_of, list_forms, word_set, word_table
-from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
+from texvent_scenes.read.parsing.tokens import NO_TOKEN, SHOTS, Token
 
 _LED = frozenset({"follow", "orbit"})
 """Moves of a camera about somebody: "tracking shot following a cyclist"."""
@@ -154,7 +155,7 @@ class _Parser(GroupReader):
 
     def _goes_on(self, verb: Token) -> bool:
         """Whether another verb of the same form follows in a list: "rolls, stops and falls"."""
-        forms = {one.form for one in verb.all("verb")} & {"s", "ing"}
+        forms = {one.form for one in verb.all("verb")} & {"s", "ing"} or {"s"}  # "to catch it, runs"
         is_subject = self._token().has("noun") and self._token(1).verbs("base", "ing")
         return bool(self._token().verbs(*forms)) and not is_subject
 
@@ -178,11 +179,22 @@ class _Parser(GroupReader):
             return Clause(about="nearest")  # "drives a tractor followed by birds"
         if verb is None or (verb.is_unknown and verb is self._token(-1)):
             return None
+        is_next = verb is self._token(-1 - self._token(-1).has("adverb"))
+        if token.text == "to" and is_next and self._names_purpose():
+            self._take()
+            return Clause(about="camera" if clause.about == "camera" else "same")
         is_open = bool(verb.verbs("ing")) or clause.about == "nearest"
         is_state = bool(verb.verbs("ed")) and not verb.verbs("s")  # "a bird perched here flies"
         forms = ("ing", "s", "base") if is_open else ("ing", "s") if is_state else ("ing",)
         is_next = token.verbs(*forms) and self._is_verb(replace(clause, verb=None))
         return Clause(about="meanwhile") if is_next else None
+
+    def _names_purpose(self) -> bool:
+        """Whether "to" leads to what is done to something: "leaps to catch a frisbee"."""
+        done, others = self._token(1), word_set("things", "unfulfilled")
+        is_done = bool(done.verbs("base")) and not done.has(*HEADS, *MODIFIERS)
+        has_object = self._starts_group(2) or self._token(2).has("pronouns")
+        return is_done and has_object and self._token(-1).text not in others
 
     def _begin_kept(self) -> Clause | None:
         """Clause of a camera that keeps its subject in view: "keeps her in frame"."""
@@ -222,7 +234,11 @@ class _Parser(GroupReader):
         """As "the camera", or "zoom in" at the beginning of a clause."""
         ahead = 1 if self._token().has("articles") else 0
         token, after = self._token(ahead), self._token(ahead + 1)
-        is_shot = token.has("shot") and not token.has("noun") and bool(ahead and after.has("verb"))
+        is_shot = token.has("shot") and after.has("verb")
+        if token.text.endswith(SHOTS):  # "the shot slowly zooms in"
+            done = self._token(ahead + 1 + after.has("adverb")).verbs("s")
+            is_shot |= any(one.value.who == "camera" for one in done)
+        is_shot &= bool(ahead) and not token.has("noun")
         moves = {one.value.kind for one in token.verbs("ing") if one.value.who == "camera"}
         is_led = bool(moves & _LED) and self._token(-1).has("shot", "style", "scene")
         if is_led and not (clause.has_subject or clause.verb):
@@ -285,6 +301,7 @@ class _Parser(GroupReader):
         forms, before = {one.form for one in token.all("verb")}, self._token(-1).text
         is_open = clause.is_plural or (before == "to" and self._token(-2).has("style"))
         is_named = forms == {"base"} and self._token(-1).has("articles", "field")  # "a big wave"
+        is_named &= " " not in before  # "trucks with headlights drive"
         if not forms or is_named or (forms == {"base"} and not is_open):  # "starts to spin"
             return False
         if token.has("noun", "effect", "place", "scene", "field"):
@@ -310,7 +327,9 @@ class _Parser(GroupReader):
         if not is_back and is_lone:
             if token.has("adverb") or not (token.has("relation") or is_passive):
                 return None
-            return replace(clause, after=(*clause.after, self._take()))
+            is_end = token.text == "behind" and (self._token(1).is_sign or self._token(1).text == "and")
+            said = Phrase(self._take(), ()) if is_end and clause.has_subject else self._take()
+            return replace(clause, after=(*clause.after, said))
         self._at += 1 + is_back
         if token.text in _IS:  # "the ball is red"
             group = self._group()

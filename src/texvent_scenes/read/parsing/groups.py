@@ -9,7 +9,7 @@ from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.read.parsing.lexicon import NounSense, word_set, word_table
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token, token_at
 
-_HEADS = ("noun", "place", "effect", "pose", "scene")
+HEADS = ("noun", "place", "effect", "pose", "scene")
 """Senses that a noun group may end with."""
 MODIFIERS = ("field", "scene", "adverb")
 """Senses of the words before a head."""
@@ -196,7 +196,7 @@ class GroupReader:
                 unknown.append(token)
                 if article in ("a", "an"):  # "a six axis arm" is one
                     modifiers = [one for one in modifiers if not _counts(one)]
-            elif not token.has(*_HEADS) or self._stands_before(token):
+            elif not token.has(*HEADS) or self._stands_before(token):
                 modifiers.append(token)
             elif self._is_compound(article, first):
                 unknown.append(token)
@@ -244,14 +244,14 @@ class GroupReader:
             return True  # "blue lights at night"
         if token is NO_TOKEN or token.is_sign or token.text == "and" or token.has(*_STANDPOINTS):
             return True
-        if token.has(*_HEADS, *MODIFIERS):
+        if token.has(*HEADS, *MODIFIERS):
             return token.has("relation") and self._at > first
         if token.is_unknown and self._at > first and self._has_object():
             return True  # "a player in white serves the ball"
         before = self._token(-1)
         if self._at > first and before.is_unknown and is_plural_form(before.text):
             return True  # "in blue kimonos wooden boxes": the colour is not that of the boxes
-        is_many = before.text.endswith("s") or not self._token(1).has(*_HEADS)
+        is_many = before.text.endswith("s") or not self._token(1).has(*HEADS)
         if before.is_unknown and is_many and token.text.endswith("ing"):
             return self._at > first  # "travellers pulling", "a white line spinning at 3 Hz"
         is_state = token.text in word_table("states") and self._at == first
@@ -275,7 +275,7 @@ class GroupReader:
         after = self._token(ahead)
         is_before = token.has(*MODIFIERS) and not after.has("relation")
         is_before &= not after.text.startswith(_PREPOSITIONS)  # "in the rain at night"
-        return is_before and after.has(*_HEADS, "field")
+        return is_before and after.has(*HEADS, "field")
 
     def _is_compound(self, article: str, first: int) -> bool:
         """Whether the word that follows is the head: "dog house", "a square red box"."""
@@ -297,7 +297,8 @@ class GroupReader:
         led = token_at(self._tokens, first - 1)
         is_lone = is_inert and not (article or any(one.is_plural for one in nouns))
         is_lone &= led.has("verb", "relation") and not led.has("noun")  # "wears oven gloves"
-        is_lone |= self._has_verb or bool(self._token(1).verbs("s"))  # "with guards hovers"
+        led = self._token(1)
+        is_lone |= self._has_verb or (bool(led.verbs("s")) and not led.has("noun"))  # "guards hovers"
         is_verb = after.text.endswith(("ing", "ed", "ly", *(() if is_lone else ("s",))))
         is_verb |= after.has("other")
         is_word = after.is_unknown or (is_named and is_inert)  # "a chair lift"

@@ -34,6 +34,8 @@ from texvent_scenes.words import find_literals
 
 _OF_PARTICLES = ("plain", "lamp", "machine")
 """Subjects of what is no verb with a particle before a noun: "comes down the road"."""
+SHOTS = ("shot", "footage")
+"""Ends of words of what a camera takes, of which is said what the camera does."""
 _NEAR = 4
 """Words after a light verb among which what is done is named."""
 MOST_WORDS = 1000
@@ -361,7 +363,8 @@ def _without_chance(
     is_placed = after == "of" and words[end].casefold() == "front"  # "a car in front of a house"
     is_many = bool(before) and before[-1].text.endswith(" of")  # "a stack of cardboard boxes"
     is_single = any(one.text in ("a", "an") for one in before[-2:]) and not is_many
-    is_of_camera = not before or before[-1].is_sign or any(one.has("camera") for one in before[-9:])
+    is_of_camera = not before or before[-1].is_sign or any(
+        one.has("camera") or one.text.endswith(SHOTS) for one in before[-9:])  # fmt: skip
     return tuple(
         one for one in senses
         if (one.kind != "noun" or not (is_verb or is_placed or (is_single and one.value.is_plural)))
