@@ -68,8 +68,12 @@ def water_line(
 ) -> RoadLine:
     """The middle of a river, or the shore of a lake with the water on its left.
 
-    It runs through objects that float or swim, or are `above` the water, and behind those on land.
+    It runs through objects that float or swim, or are `above` the water, and behind those on land;
+    a river under a bridge, where nobody stands in its way.
     """
+    bridged = _run_under_bridge(place, actors)
+    if bridged is not None:
+        return bridged
     forward = path.at(0.0).rotation[2, :2]
     angle = math.atan2(float(forward[1]), float(forward[0])) - 0.5 * math.pi
     x, y = float(path.framing.target[0]), float(path.framing.target[1])
@@ -102,6 +106,22 @@ def water_line(
     return RoadLine(angle, (x - gap * math.sin(angle), y + gap * math.cos(angle)))
 
 
+def _run_under_bridge(place: PlaceModel, actors: Sequence[Actor]) -> RoadLine | None:
+    """The middle of a river that runs under the only bridge; None: there is none, or no room."""
+    bridges = [one for one in actors if one.noun.name in nouns_with("has approaches")]
+    if len(bridges) != 1 or place.ground is not Ground.RIVER or any(map(is_afloat, actors)):
+        return None
+    (bridge,) = bridges
+    x, y, _ = map(float, bridge.middle(0.0))
+    line = RoadLine(bridge.track.at(0.0).yaw + 0.5 * math.pi, (x, y))
+    corners = [one.corners(time) for one in actors if one is not bridge for time in (0.0, USUAL_S)]
+    low = np.vstack([each for each in corners if each[:, 2].min() < _LOW_M] or [np.zeros((0, 3))])
+    is_met = np.abs(line.across(low[:, :2])) < place.road_m + _LEAST_BANK_M
+    return None if is_met.any() else line
+
+
+_LOW_M = 0.3
+"""Height of a foot below which a body is on the ground, not on a bridge."""
 NO_ROOM_M = 9.0
 """Half the side of a room where there is none, m; nothing shows it."""
 _BLACK: Colour = (0.0, 0.0, 0.0)
