@@ -13,6 +13,7 @@ from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.activities import HAND_NOUNS, OF_ARMS, PERSON_NOUNS
 from texvent_scenes.models.anchors import has_rim
 from texvent_scenes.models.effects import EFFECTS
+from texvent_scenes.models.shapes import bounds, moved
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor
@@ -128,6 +129,7 @@ def list_framing_choices(
     if framing == "close" or (framing == "medium" and main.noun.name in PERSON_NOUNS):
         same = [one for one in actors if one.object_index == main.object_index][:_MOST_NEAR]
         parts = [near_part(one, framing, times, tie).reshape(-1, 3) for one in same]
+        parts += _list_poured(description, actors, main, times)
         return [FramingChoice(np.vstack(parts), _NEAR_FILL)]
     fill = min([_FILL, *(_FILL_BY_MOVE.get(one.move.kind, _FILL) for one in moves)])
     fill = fill if tie is None else min(fill, _FOLLOWED_FILL)
@@ -190,6 +192,20 @@ def near_part(
         return hands
     boxes = [_box_at(main, time, tie) for time in map(float, times)]
     return np.array([_upper_part(main, box, framing) for box in boxes])
+
+
+def _list_poured(
+    description: SceneDescription, actors: Sequence[Actor], main: Actor, times: Float64Array
+) -> list[Float64Array]:
+    """[2, 3] ends, m, of what passes between the hands of who holds the subject: poured water."""
+    holders = {r.subject for r in description.relations
+               if r.kind == "hold" and main.object_index in r.targets}  # fmt: skip
+    return [
+        np.array(bounds(moved(prop.draw(time), one.anchor(prop.anchor, time))))
+        for one in actors if one.object_index in holders
+        for prop in one.props if prop.anchor == "hands"
+        for time in map(float, times)
+    ]  # fmt: skip
 
 
 def _hands_at_work(main: Actor, times: Float64Array) -> Float64Array | None:
