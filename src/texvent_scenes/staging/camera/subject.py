@@ -55,6 +55,8 @@ _AT_WORK, _AROUND_HANDS = np.array([0.012, -0.12, 0.22]), 0.1
 what is in a close shot around hands: all in heights of the person."""
 _MOST_NEAR = 3
 """Greatest number of copies that a near shot holds together."""
+_POURED = 1.6
+"""Length of a stream that is in a close shot of what it is poured into, in heights of that."""
 _FOREARM = 0.28
 """Share of a hand with its forearm below which the image may end: it comes from outside."""
 
@@ -197,15 +199,18 @@ def near_part(
 def _list_poured(
     description: SceneDescription, actors: Sequence[Actor], main: Actor, times: Float64Array
 ) -> list[Float64Array]:
-    """[2, 3] ends, m, of what passes between the hands of who holds the subject: poured water."""
+    """[2, 3] ends, m, of what is poured into the subject by who holds it: the last of its way."""
     holders = {r.subject for r in description.relations
                if r.kind == "hold" and main.object_index in r.targets}  # fmt: skip
-    return [
+    jets = [
         np.array(bounds(moved(prop.draw(time), one.anchor(prop.anchor, time))))
         for one in actors if one.object_index in holders
         for prop in one.props if prop.anchor == "hands"
         for time in map(float, times)
     ]  # fmt: skip
+    for jet in jets:
+        jet[1, 2] = min(jet[1, 2], jet[0, 2] + _POURED * main.model.height)
+    return jets
 
 
 def _hands_at_work(main: Actor, times: Float64Array) -> Float64Array | None:
