@@ -96,7 +96,10 @@ class MotionPlan:
     @property
     def climb(self) -> float:
         """Metres up per metre along."""
-        direction, is_free = self.motion.direction or "", self.motion.kind in ("fly", "glide", "swim")
+        direction, is_free = (
+            self.motion.direction or "",
+            self.motion.kind in ("fly", "glide", "swim"),
+        )
         if direction == "diagonal" and (is_free or self.is_facing):
             return _DIAGONAL
         is_free &= not self.is_facing
