@@ -143,8 +143,8 @@ _LUMA = np.array([0.2126, 0.7152, 0.0722])
 _UNDERWATER_SIGHT_M = 16.0
 _WET = 0.85
 """Share of rain water on roads while it rains, and after it."""
-_FOG_SIGHT, _HAZE_SIGHT = 3.0, 9.0
-"""In fog and in haze, sight (to 37 %) in camera distances."""
+_FOG_SIGHT, _HAZE_SIGHT, _THICK_SIGHT = 3.0, 9.0, 12.0
+"""In fog, in haze and in heavy snow, sight (to 37 %) in camera distances."""
 
 
 @dataclass(frozen=True)
@@ -268,6 +268,9 @@ def _sky_colours(place: PlaceModel, lighting: Lighting, said: Place) -> tuple[Co
     if sky is not None:
         haze = 0.5 if max(sky) > _BLACK_SKY else 0.05  # a black sky has no air
         return sky, mix(sky, lighting.sky_horizon, haze)
+    if _is_thick(said):  # of the sky only the nearest flakes are seen
+        grey = sum(lighting.sky_horizon) / 3.0
+        return (grey, grey, grey), (grey, grey, grey)
     if not place.is_backdrop:
         return lighting.sky_top, lighting.sky_horizon
     average = mix(*_ground_colours(place, said), 0.5)
@@ -320,9 +323,16 @@ def _choose_fog(
         return _FOG_SIGHT * distance_m / amount, mix(horizon, (grey, grey, grey), 0.7)
     if weather == "haze":
         return _HAZE_SIGHT * distance_m / amount, horizon
+    if _is_thick(said):
+        return _THICK_SIGHT * distance_m / amount, horizon
     if weather in ("rain", "snow"):
         return 14.0 * distance_m / math.sqrt(amount), horizon  # drops and flakes hide the rest
     return math.inf, horizon
+
+
+def _is_thick(said: Place) -> bool:
+    """Whether snow falls so thickly that it hides the sky and what is far."""
+    return said.weather == "snow" and said.weather_amount > Place.weather_amount
 
 
 def _array(colour: Colour) -> Float32Array:
