@@ -61,7 +61,7 @@ def _stands_ashore(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
     """Whether something of the ground is neither in water nor on or in something else."""
     borne = {one.subject for one in description.relations if one.kind in _BORNE}
     borne |= {n for one in description.relations if one.kind in AT_HAND for n in one.targets}
-    wet = {*IN_WATER, "hover", "float", "fly", "rise", "fall", "sink", "throw"}
+    wet = {*IN_WATER, "hover", "float", "fly", "glide", "rise", "fall", "sink", "throw"}
     return any(
         _is_of_land(nouns[one.noun]) and n not in borne
         and not any(motion.kind in wet for motion in one.motions)

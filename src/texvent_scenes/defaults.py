@@ -46,7 +46,7 @@ _GOING = {"stand": "slide", "float": "fly"}
 _UPRIGHT = {"up": "rise", "down": "sink"}
 _VERTICAL = {**_UPRIGHT, "up and down": "fly"}
 """Direction of what goes by no means of its own → its motion."""
-_FLYING = {"fly", "rise", "sink", "hover"}
+_FLYING = {"fly", "glide", "rise", "sink", "hover"}
 _GO = Motion("go")
 _ROCKING = 0.5
 """Pace at which what floats rocks on waves, as a share of that of a sway."""

@@ -316,7 +316,9 @@ def _tell_camera(staged: StagedClip) -> str:
     first, last = cameras[0], cameras[-1]
     pitch = math.degrees(math.asin(float(np.clip(first.rotation[2][2], -1.0, 1.0))))
     has_ground = staged.scene.place.ground not in (Ground.NONE, Ground.UNDERWATER)
-    facts = [f"{_round(first.position[2])} m above the ground"] if has_ground else []
+    is_driven = any(one.means == "drive" for one in staged.description.camera.moves)
+    facts = ["in a vehicle of which nothing is drawn"] if is_driven else []
+    facts += [f"{_round(first.position[2])} m above the ground"] if has_ground else []
     level = "level" if abs(pitch) < 3.0 else f"{abs(pitch):.0f}° {'up' if pitch > 0 else 'down'}"
     facts += [f"looks {level}"]
     roll = math.degrees(_roll_of(first))

@@ -67,7 +67,7 @@ def find_tiny(
             continue
         able = own[0].noun.acts if own and own[0].noun.speed_m_s > 0.0 else frozenset()
         able |= _ACTS if said.noun in PERSON_NOUNS | HAND_NOUNS else frozenset()
-        if not (own and kinds and kinds <= able - _POSTURES - _OF_LIGHTS):
+        if not (own and kinds and kinds <= able - _POSTURES - _OF_LIGHTS - TRAVELLING):
             continue
         most = max(_limb_way(one, cameras, times, size) for one in own)
         if most < _LEAST_SHARE * size.height:

@@ -201,7 +201,7 @@ def _comes_to_height(kind: str, height_m: Float64Array, least_m: float) -> bool:
 def _keeps_direction(one: Actor, phase: Phase) -> bool:
     """Whether what flies or swims up or down does so."""
     sign = {"up": 1.0, "down": -1.0}.get(phase.motion.direction or "", 0.0)
-    if not sign or phase.motion.kind not in ("fly", "swim"):
+    if not sign or phase.motion.kind not in ("fly", "glide", "swim"):
         return True
     risen_m = (one.middle(phase.end_s) - one.middle(phase.start_s))[2]
     return bool(sign * risen_m > _LEAST_GONE * one.size_m)

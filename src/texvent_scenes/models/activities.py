@@ -153,7 +153,9 @@ MOUTH_ACTIVITIES = frozenset(
 )  # fmt: skip
 """Those in which the mouth is at the ground, or at what is eaten."""
 
-TRAVELLING = frozenset(name for name, one in ACTIVITIES.items() if one.travels)
+TRAVELLING = frozenset(
+    name for name, one in {**ANIMAL_ACTIVITIES, **ACTIVITIES}.items() if one.travels
+)
 """Names of the activities that go from place to place."""
 DONE_SEATED = frozenset(name for name, one in ACTIVITIES.items() if one.is_done_seated)
 """Activities that people also do sitting: torso, head and arms move, the hips do not."""

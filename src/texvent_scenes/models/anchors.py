@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent_scenes.models.protocol import Model, ModelPart, Pose
-from texvent_scenes.models.shapes import Affine, Point
+from texvent_scenes.models.shapes import Affine, Point, bounds, moved, turn_about
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
 from texvent_scenes.rendered_scene import Shape
 
@@ -54,6 +54,7 @@ def has_places(model: Model) -> bool:
 
 
 _GRID = 17
+_REST = Pose(0.0, 0.0, 0.0, "stand")
 _LEVEL_M = 0.03
 _LEAST_SHARE = 0.12
 """Share of what the model covers that a level surface must have to count as one."""
@@ -90,7 +91,7 @@ def find_support(model: Model, near_m: float | None = None) -> Support:
         near_m: height of the surface that is wanted, m; where no part of the model is about as
             high, the largest surface is taken.
     """
-    parts = model.parts(Pose(0.0, 0.0, 0.0, "stand"))
+    parts = model.parts(_REST)
     xs = np.linspace(-0.48, 0.48, _GRID) * model.length
     ys = np.linspace(-0.48, 0.48, _GRID) * model.width
     x, y = (axis.ravel() for axis in np.meshgrid(xs, ys, indexing="ij"))
@@ -117,6 +118,43 @@ def find_support(model: Model, near_m: float | None = None) -> Support:
         (float(x[chosen].min()), float(y[chosen].min())),
         (float(x[chosen].max()), float(y[chosen].max())),
     )
+
+
+def find_room(body: Model, turn: float, under: Model, support: Support) -> tuple[float, float]:
+    """Place on a support nearest to its middle where a body goes into nothing that rises there.
+
+    Args:
+        body: the body, at rest.
+        turn: its heading with respect to that of what is under it, rad.
+        under: the model of the support.
+        support: its level surface.
+
+    Returns:
+        x and y in the coordinates of `under`, m; the middle where no place is free.
+    """
+    rising = _boxes(under.parts(_REST))
+    edge = np.array([support.low, support.high])
+    inside = (rising[:, 0, :2] > edge[0]) & (rising[:, 1, :2] < edge[1])
+    rising = rising[inside.all(axis=1) & (rising[:, 1, 2] > support.height + _LEVEL_M)]
+    if not len(rising):
+        return support.middle
+    own = _boxes(moved(body.parts(_REST), turn_about("z", turn)))
+    own[..., 2] += support.height + 0.5 * _LEVEL_M - own[..., 2].min()
+    foot = own[own[:, 0, 2] < own[:, 0, 2].min() + _LEVEL_M][..., :2]
+    room = edge[0] - foot[:, 0].min(axis=0), edge[1] - foot[:, 1].max(axis=0)
+    axes = [np.linspace(*ends, _GRID) for ends in zip(*room, strict=True)]
+    spots = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
+    spots = np.vstack([support.middle, spots])
+    lows, highs = (np.pad(spots, ((0, 0), (0, 1)))[:, None] + own[None, :, end] for end in (0, 1))
+    meets = (lows[:, :, None] < rising[:, 1]) & (highs[:, :, None] > rising[:, 0])
+    away_m = np.linalg.norm(spots - support.middle, axis=1)
+    best = int(np.argmin(np.where(meets.all(axis=-1).any(axis=(1, 2)), np.inf, away_m)))
+    return float(spots[best, 0]), float(spots[best, 1])
+
+
+def _boxes(parts: Sequence[ModelPart]) -> NDArray[np.float64]:
+    """[n, 2, 3] least and greatest corners of parts, m."""
+    return np.array([bounds([one]) for one in parts])
 
 
 def top_heights(

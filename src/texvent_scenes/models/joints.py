@@ -13,12 +13,12 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from texvent_scenes.models.activities import ANIMAL_ACTIVITIES
+from texvent_scenes.models.activities import ANIMAL_ACTIVITIES, TRAVELLING
 from texvent_scenes.models.materials import shade
 from texvent_scenes.models.protocol import ModelPart, Pose, between, fraction
 from texvent_scenes.models.shapes import Affine, Point, affine, compose, moved, shift, turn_about
 
-RESTING = frozenset({"stand", "sit", "lie", *ANIMAL_ACTIVITIES})
+RESTING = frozenset({"stand", "sit", "lie", *ANIMAL_ACTIVITIES}) - TRAVELLING
 """Activities of a body that stays where it is."""
 _RESTING_VIGOUR = 0.3
 """Undulation of a swimmer at rest."""

@@ -46,24 +46,39 @@ def is_ego(draft: SceneDraft, clause: Clause) -> bool:
 def sit_in(draft: SceneDraft, clause: Clause) -> Clause | None:
     """The clause of a driver's view of who goes through a passage, said of the camera itself.
 
-    "A car exits a tunnel, dashcam view"; None: no camera is in a vehicle.
+    "A car exits a tunnel, dashcam view", "a car drives along a road seen through the windscreen";
+    None: no camera is in that vehicle.
     """
-    shots = {sense.value for token in draft.tokens for sense in token.all("shot")}
+    said = [(token, sense.value) for token in draft.tokens for sense in token.all("shot")]
+    shots = {value for _, value in said}
     nouns = nouns_of(clause.subjects)
     is_driven = [draft.nouns[one].motion for one in nouns] == ["drive"]
     is_driven &= not any(group.is_plural for group in clause.subjects)
     if _DRIVEN not in shots or draft.things or not (is_driven and clause.verb):
         return None
+    head = clause.subjects[0].head or NO_TOKEN
     way, drive = Sense("relation", "through"), lexicon_of(draft.nouns)[("driving",)]
     first = Phrase(Token("through", clause.verb.at), clause.objects)
     after = [one if isinstance(one, Token) or not _names_passage(one.groups) else
              Phrase(replace(one.preposition, senses=(way,)), one.groups)
              for one in (first, *clause.after) if isinstance(one, Token) or one.groups]  # fmt: skip
-    if not any(isinstance(one, Phrase) and _names_passage(one.groups) for one in after):
+    is_own = any((one.value.who, one.value.kind, one.value.relation) == ("plain", "drive", None)
+                 for one in clause.verb.all("verb"))  # fmt: skip
+    is_own &= {*nouns} <= nouns_with("closed") and not any(
+        one.says("adverb", "direction") for one in clause.after if isinstance(one, Token)
+    )
+    is_own &= any(_is_own_pane(token) for token, _ in said) and head.text in nouns
+    if not (is_own or any(isinstance(one, Phrase) and _names_passage(one.groups) for one in after)):
         return None
-    draft.mark(clause.subjects[0].head or NO_TOKEN, "camera")
+    draft.mark(head, "camera")
     verb = replace(clause.verb, senses=drive)
     return replace(clause, subjects=(), objects=(), verb=verb, after=tuple(after))
+
+
+def _is_own_pane(token: Token) -> bool:
+    """Whether a shot is through the pane of a vehicle of which no more is said."""
+    words = {*token.text.split()}
+    return not words.isdisjoint(word_set("things", "panes")) and "another" not in words
 
 
 def look_out(draft: SceneDraft, clause: Clause) -> Clause | None:

@@ -24,7 +24,7 @@ from texvent_scenes.read.parsing.tokens import Token
 from texvent_scenes.read.parts import claim_lamps
 from texvent_scenes.read.prepositions import comes_down, set_before
 
-_IN_WIND = frozenset({"sway", "fly", "float", "hover", "sail"})
+_IN_WIND = frozenset({"sway", "fly", "glide", "float", "hover", "sail"})
 """Motions in which the wind shows."""
 _REPEATED = {name: one.repeats_hz for name, one in ACTIVITIES.items()}
 _QUANTITIES = ("rate_hz", "turns_hz", "blink_hz")
@@ -208,7 +208,7 @@ def _is_open(draft: SceneDraft, field: str, things: Sequence[Mapping[str, Any]])
         return not (motions or works or is_lamp)
     if field == "height_m":  # it is no way either: "seen from 3 m"
         return not any(
-            one["kind"] in ("fall", "bounce", "hover", "fly", "float") for one in motions
+            one["kind"] in ("fall", "bounce", "hover", "fly", "glide", "float") for one in motions
         )
     is_set = field in word_set("things", "once") and any(field in one for one in things)
     return is_set or field in word_set("things", "claimed")

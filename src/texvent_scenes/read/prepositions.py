@@ -28,7 +28,7 @@ from texvent_scenes.spec.data import PLACING, SPACED
 
 _WATERS = frozenset({"sea", "lake", "river"})
 _AT_HOME = {
-    ("into", "sky"): {"fly", "rise", "float", "hover"},
+    ("into", "sky"): {"fly", "glide", "rise", "float", "hover"},
     **{("into", one): {"swim"} for one in _WATERS},
 }
 """Prepositions and places → motions after which one is there: "flies into the sky"."""

@@ -100,6 +100,9 @@ def _see_as_operator(token: Token, tokens: Sequence[Token]) -> Token:
 
 def _see_as_showing(token: Token, tokens: Sequence[Token]) -> Token:
     """The token as the verb or as the word of style that it is: "shows a boy how to swim"."""
+    is_filled = token_at(tokens, token.at + 1).text in ("into", "onto")
+    if is_filled and token.has("effect") and token.has("verb"):  # "pouring water into a glass"
+        return replace(token, senses=token.all("verb"))
     if not (token.has("style") and token.has("verb")):
         return token
     is_verb = any(one.has("infinitive") for one in tokens[token.at :])

@@ -13,6 +13,7 @@ from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.activities import HAND_NOUNS, OF_ARMS, PERSON_NOUNS
 from texvent_scenes.models.anchors import has_rim
 from texvent_scenes.models.effects import EFFECTS
+from texvent_scenes.models.shapes import bounds, moved
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor
@@ -54,6 +55,8 @@ _AT_WORK, _AROUND_HANDS = np.array([0.012, -0.12, 0.22]), 0.1
 what is in a close shot around hands: all in heights of the person."""
 _MOST_NEAR = 3
 """Greatest number of copies that a near shot holds together."""
+_POURED = 1.6
+"""Length of a stream that is in a close shot of what it is poured into, in heights of that."""
 _FOREARM = 0.28
 """Share of a hand with its forearm below which the image may end: it comes from outside."""
 
@@ -128,6 +131,7 @@ def list_framing_choices(
     if framing == "close" or (framing == "medium" and main.noun.name in PERSON_NOUNS):
         same = [one for one in actors if one.object_index == main.object_index][:_MOST_NEAR]
         parts = [near_part(one, framing, times, tie).reshape(-1, 3) for one in same]
+        parts += _list_poured(description, actors, main, times)
         return [FramingChoice(np.vstack(parts), _NEAR_FILL)]
     fill = min([_FILL, *(_FILL_BY_MOVE.get(one.move.kind, _FILL) for one in moves)])
     fill = fill if tie is None else min(fill, _FOLLOWED_FILL)
@@ -190,6 +194,23 @@ def near_part(
         return hands
     boxes = [_box_at(main, time, tie) for time in map(float, times)]
     return np.array([_upper_part(main, box, framing) for box in boxes])
+
+
+def _list_poured(
+    description: SceneDescription, actors: Sequence[Actor], main: Actor, times: Float64Array
+) -> list[Float64Array]:
+    """[2, 3] ends, m, of what is poured into the subject by who holds it: the last of its way."""
+    holders = {r.subject for r in description.relations
+               if r.kind == "hold" and main.object_index in r.targets}  # fmt: skip
+    jets = [
+        np.array(bounds(moved(prop.draw(time), one.anchor(prop.anchor, time))))
+        for one in actors if one.object_index in holders
+        for prop in one.props if prop.anchor == "hands"
+        for time in map(float, times)
+    ]  # fmt: skip
+    for jet in jets:
+        jet[1, 2] = min(jet[1, 2], jet[0, 2] + _POURED * main.model.height)
+    return jets
 
 
 def _hands_at_work(main: Actor, times: Float64Array) -> Float64Array | None:

@@ -11,9 +11,9 @@ import numpy as np
 
 from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.anchors import find_support, top_heights
-from texvent_scenes.models.people.outfit import CLOTHES, list_props
+from texvent_scenes.models.people.outfit import CLOTHES, Prop, list_props
 from texvent_scenes.models.protocol import Noun, Pose
-from texvent_scenes.models.shapes import Affine, compose, point, shift
+from texvent_scenes.models.shapes import Affine, bounds, compose, point, shift
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor, size_of
@@ -120,8 +120,9 @@ def hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
         held = held_at(subject, "mouth", offset, swing=_swing(target, offset))
         return subject, carried(target, held, subject)
     doing = subject.track.at(0.0).activity
-    props = (one.anchor for one in list_props(doing) if target.noun.name in one.nouns)
-    hand = next((one for one in props if one in _HANDS), "right hand")
+    props = list_props(doing)
+    same = (one for one in props if target.noun.name in one.nouns and one.anchor in _HANDS)
+    prop = next(same, None)
     named = (style for style in _STYLES if target.noun.name in nouns_with(style))
     by_size = "in both arms" if target.size_m > _LARGE_M else "held upright"
     hold = place_in_hold(next(named, by_size), subject, target)
@@ -132,9 +133,22 @@ def hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
         if swing is not None and is_in_arms and swing.is_to_and_fro:
             path = replace(path, grips_turn=partial(_turn_of, swing, hold.offset))
         subject = replace(subject, track=path)
-    anchor = hand if hold.anchor in _HANDS else hold.anchor
+    anchor = prop.anchor if prop is not None and hold.anchor in _HANDS else hold.anchor
+    if prop is not None and any(one.anchor == "hands" for one in props):
+        hold = _put_for(prop, subject, hold)
     held = held_at(subject, anchor, hold.offset, is_upright=hold.is_upright, swing=swing)
     return subject, carried(target, held, subject)
+
+
+def _put_for(prop: Prop, holder: Actor, hold: Hold) -> Hold:
+    """A hold with the thing where a prop would be, into which something is poured."""
+    low, high = bounds(prop.draw(0.0))
+    axes = holder.anchor(prop.anchor, 0.0)[:, :3]
+    turn = rotation(holder.track.at(0.0).yaw, 0.0, 0.0).T @ axes if hold.is_upright else np.eye(3)
+    x, y, _ = turn @ (0.5 * (low + high))
+    offset = hold.offset.copy()
+    offset[:2, 3] += x, y
+    return hold._replace(offset=offset)
 
 
 def _swing(thing: Actor, offset: Affine, *, is_in_arms: bool = False) -> Swing | None:

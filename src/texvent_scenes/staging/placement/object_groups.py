@@ -11,7 +11,7 @@ import numpy as np
 
 from texvent_scenes.colours import rgb_of
 from texvent_scenes.description import STANDING, SceneDescription
-from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
+from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS, TRAVELLING
 from texvent_scenes.models.anchors import Support, find_support
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.people.outfit import CLOTHES, HOLDS, Prop, list_props
@@ -244,7 +244,7 @@ _APART = 0.3
 
 def rests(noun: Noun, kind: str) -> bool:
     """Whether it is on something while it does that."""
-    return kind in _RESTING or kind in noun.acts
+    return kind in _RESTING or kind in noun.acts - TRAVELLING
 
 
 def stagger(

@@ -14,7 +14,7 @@ from texvent_scenes.models.activities import (
     TIMED,
     TO_AND_FROM_SEATS,
 )
-from texvent_scenes.models.anchors import Support, find_support
+from texvent_scenes.models.anchors import Support, find_room, find_support
 from texvent_scenes.models.people.person import SEAT
 from texvent_scenes.models.protocol import Pose
 from texvent_scenes.models.shapes import bounds
@@ -298,7 +298,11 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
         stop_at_edge(group, target, support)
     _turn_along(group, target, support)
     group.fit()
-    return target.to_world(*support.middle, support.height + group.origin_m)
+    x, y = support.middle
+    if len(group.models) == 1 and not group.plan.is_path:
+        turn = group.plan.yaw - target.plan.yaw
+        x, y = find_room(group.models[0], turn, target.models[0], support)
+    return target.to_world(x, y, support.height + group.origin_m)
 
 
 def _turn_along(group: ObjectGroup, target: ObjectGroup, support: Support) -> None:

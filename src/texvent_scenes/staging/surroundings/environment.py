@@ -68,8 +68,12 @@ def water_line(
 ) -> RoadLine:
     """The middle of a river, or the shore of a lake with the water on its left.
 
-    It runs through objects that float or swim, or are `above` the water, and behind those on land.
+    It runs through objects that float or swim, or are `above` the water, and behind those on land;
+    a river under a bridge, where nobody stands in its way.
     """
+    bridged = _run_under_bridge(place, actors)
+    if bridged is not None:
+        return bridged
     forward = path.at(0.0).rotation[2, :2]
     angle = math.atan2(float(forward[1]), float(forward[0])) - 0.5 * math.pi
     x, y = float(path.framing.target[0]), float(path.framing.target[1])
@@ -102,6 +106,22 @@ def water_line(
     return RoadLine(angle, (x - gap * math.sin(angle), y + gap * math.cos(angle)))
 
 
+def _run_under_bridge(place: PlaceModel, actors: Sequence[Actor]) -> RoadLine | None:
+    """The middle of a river that runs under the only bridge; None: there is none, or no room."""
+    bridges = [one for one in actors if one.noun.name in nouns_with("has approaches")]
+    if len(bridges) != 1 or place.ground is not Ground.RIVER or any(map(is_afloat, actors)):
+        return None
+    (bridge,) = bridges
+    x, y, _ = map(float, bridge.middle(0.0))
+    line = RoadLine(bridge.track.at(0.0).yaw + 0.5 * math.pi, (x, y))
+    corners = [one.corners(time) for one in actors if one is not bridge for time in (0.0, USUAL_S)]
+    low = np.vstack([each for each in corners if each[:, 2].min() < _LOW_M] or [np.zeros((0, 3))])
+    is_met = np.abs(line.across(low[:, :2])) < place.road_m + _LEAST_BANK_M
+    return None if is_met.any() else line
+
+
+_LOW_M = 0.3
+"""Height of a foot below which a body is on the ground, not on a bridge."""
 NO_ROOM_M = 9.0
 """Half the side of a room where there is none, m; nothing shows it."""
 _BLACK: Colour = (0.0, 0.0, 0.0)
@@ -123,8 +143,8 @@ _LUMA = np.array([0.2126, 0.7152, 0.0722])
 _UNDERWATER_SIGHT_M = 16.0
 _WET = 0.85
 """Share of rain water on roads while it rains, and after it."""
-_FOG_SIGHT, _HAZE_SIGHT = 3.0, 9.0
-"""In fog and in haze, sight (to 37 %) in camera distances."""
+_FOG_SIGHT, _HAZE_SIGHT, _THICK_SIGHT = 3.0, 9.0, 12.0
+"""In fog, in haze and in heavy snow, sight (to 37 %) in camera distances."""
 
 
 @dataclass(frozen=True)
@@ -248,6 +268,9 @@ def _sky_colours(place: PlaceModel, lighting: Lighting, said: Place) -> tuple[Co
     if sky is not None:
         haze = 0.5 if max(sky) > _BLACK_SKY else 0.05  # a black sky has no air
         return sky, mix(sky, lighting.sky_horizon, haze)
+    if _is_thick(said):  # of the sky only the nearest flakes are seen
+        grey = sum(lighting.sky_horizon) / 3.0
+        return (grey, grey, grey), (grey, grey, grey)
     if not place.is_backdrop:
         return lighting.sky_top, lighting.sky_horizon
     average = mix(*_ground_colours(place, said), 0.5)
@@ -300,9 +323,16 @@ def _choose_fog(
         return _FOG_SIGHT * distance_m / amount, mix(horizon, (grey, grey, grey), 0.7)
     if weather == "haze":
         return _HAZE_SIGHT * distance_m / amount, horizon
+    if _is_thick(said):
+        return _THICK_SIGHT * distance_m / amount, horizon
     if weather in ("rain", "snow"):
         return 14.0 * distance_m / math.sqrt(amount), horizon  # drops and flakes hide the rest
     return math.inf, horizon
+
+
+def _is_thick(said: Place) -> bool:
+    """Whether snow falls so thickly that it hides the sky and what is far."""
+    return said.weather == "snow" and said.weather_amount > Place.weather_amount
 
 
 def _array(colour: Colour) -> Float32Array:

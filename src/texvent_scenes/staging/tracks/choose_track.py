@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from texvent_scenes.description import SPIN_RATE_HZ
-from texvent_scenes.models.activities import ANIMAL_ACTIVITIES
+from texvent_scenes.models.activities import ANIMAL_ACTIVITIES, TRAVELLING
 from texvent_scenes.models.protocol import Model
 from texvent_scenes.staging.tracks.flight_keys import BOUNCY, DULL, NO_FLOOR_M, fallen_m
 from texvent_scenes.staging.tracks.keys import Vector, ahead
@@ -24,7 +24,7 @@ from texvent_scenes.staging.tracks.phases import (
 from texvent_scenes.staging.tracks.track import TO_CAMERA, Term, Track, ballistic, steady
 from texvent_scenes.staging.tracks.turning import CLOCKWISE, axle_of, spin_sign, work_sign
 
-_STAYING = frozenset({"stand", "sit", "lie", "hang", *ANIMAL_ACTIVITIES})
+_STAYING = frozenset({"stand", "sit", "lie", "hang", *ANIMAL_ACTIVITIES}) - TRAVELLING
 """Activities in place of bodies without hands."""
 _ORBIT_SIZES = 1.3
 """Least radius of a circle around nothing, in sizes of who goes along it."""

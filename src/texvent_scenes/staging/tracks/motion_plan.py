@@ -101,7 +101,10 @@ class MotionPlan:
     @property
     def climb(self) -> float:
         """Metres up per metre along."""
-        direction, is_free = self.motion.direction or "", self.motion.kind in ("fly", "swim")
+        direction, is_free = (
+            self.motion.direction or "",
+            self.motion.kind in ("fly", "glide", "swim"),
+        )
         if direction == "diagonal" and (is_free or self.is_facing):
             return _DIAGONAL
         is_free &= not self.is_facing
@@ -177,7 +180,7 @@ def plan_motion(
 def _usual_speed(motion: Motion, noun: Noun, model: Model, duration_s: float) -> float:
     """Speed of a motion without a stated one, m/s; limited for what flies at the camera."""
     speed = usual_speed(noun, motion.kind)
-    if motion.kind == "fly" and motion.direction in _OF_CAMERA:
+    if motion.kind in ("fly", "glide") and motion.direction in _OF_CAMERA:
         size_m = max(model.length, model.width, model.height)
         speed = min(speed, _LOOMING * size_m / duration_s)
     return speed
@@ -244,7 +247,7 @@ def _choose_yaw(motions: Sequence[Motion], noun: Noun, model: Model, toss: float
     is_flat = noun.name in nouns_with("flat pattern")
     if direction == "diagonal" and is_flat:
         return default
-    if motion.kind in ("fly", "swim") and direction in ("up", "down", "diagonal"):
+    if motion.kind in ("fly", "glide", "swim") and direction in ("up", "down", "diagonal"):
         return default  # up or down in the picture, and to a side only as it likes
     return YAWS.get(direction, default)
 

@@ -184,7 +184,7 @@ class _KeyBuilder(FlightKeys):
 
     def _upright(self, motion: Motion) -> Motion:
         """The motion of a leg: of what flies or swims up or down, straight up or down."""
-        is_leg = self._has_legs and motion.kind in ("fly", "swim")
+        is_leg = self._has_legs and motion.kind in ("fly", "glide", "swim")
         kind = _UPRIGHT.get(motion.direction or "")
         if not is_leg or kind is None or motion.end_pace is not None:
             return motion

@@ -32,7 +32,7 @@ _KEYED = STEERED - PATH_KINDS | {"jump", "rise", "sink", "topple", "plunge"}
 
 _UNTIED = GOING | _KEYED | {"bounce", "fall", "throw", "orbit", "break", "blow", "climb"}
 """Motions of what no hand holds."""
-_ALOFT = frozenset({"float", "hover", "fly"})
+_ALOFT = frozenset({"float", "hover", "fly", "glide"})
 """Motions of what hangs in the air, which in a hand are rest."""
 ASTRAY = frozenset({"to and fro", "up and down", "around"})
 """Directions that lead away from a place, whatever the motion is; a board may sway to and fro."""
@@ -59,7 +59,7 @@ _DRIFT = (
     Term("yaw", 0.12, 0.31, 0.31), Term("roll", 0.05, 0.23, 0.23),
 )  # fmt: skip
 _WAVES = {
-    "fly": _BOB, "sail": _BOB, "paddle": _BOB, "swim": (Term("yaw", 0.08, 0.68, 1.0),),
+    "fly": _BOB, "glide": _BOB, "sail": _BOB, "paddle": _BOB, "swim": (Term("yaw", 0.08, 0.68, 1.0),),
     "hover": _DRIFT, "float": _DRIFT, "sway": (Term("roll", 0.14),), "tilt": (Term("pitch", 0.4),),
 }  # fmt: skip
 """Kind of motion → its oscillations: amplitudes in rad or in the body's size, phases as shares of
@@ -133,7 +133,7 @@ def needs_steering(motions: Sequence[Motion]) -> bool:
 def goes_straight_up(motion: Motion, noun: Noun) -> bool:
     """Whether what flies goes straight up or down, as all do but aircraft with wings."""
     is_aircraft = noun.name in nouns_with("takes off") or noun.habitat != "air"
-    is_upright = motion.kind == "fly" and motion.direction in ("up", "down")
+    is_upright = motion.kind in ("fly", "glide") and motion.direction in ("up", "down")
     return is_upright and not is_aircraft and motion.end_pace is None
 
 
