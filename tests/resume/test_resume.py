@@ -22,6 +22,11 @@ def write_videos() -> None:
     for seed, name in enumerate("ab"):
         write_video(f"clips/{name}.npy", seed)
     Path("times.txt").write_text("".join(f"{t / 100}\n" for t in range(4)))
+    other_sensor(0.3)
+
+
+def other_sensor(threshold: float = 0.4) -> None:
+    Path("own.toml").write_text(f"contrast_threshold = {threshold}\n")
 
 
 def other_video() -> None:
@@ -62,7 +67,7 @@ FLAT = ("--interpolate", "none", "--simulator", "esim")
 DRAFT = ("--samples", 1, *FLAT)
 VIDEOS = (
     *("batch", "clips/a.npy", "clips/b.npy", "-o", "out", "--timestamps", "times.txt"),
-    *("--format", "atis", "--previews", "png", *FLAT),
+    *("--format", "atis", "--previews", "png", "--sensor", "own.toml", *FLAT),
 )
 PROMPTS = (
     *("batch", "p.csv", "-o", "out", "--sensor", "16x12", "--duration", "0.05", *DRAFT),
@@ -80,7 +85,7 @@ samples_per_shard = 1
 filters = { min_events = 1 }
 options = { interpolate = "none", timestamps = "times.txt" }
 sources = [{ videos = ["clips/*.npy"] }]
-variants = { paper = { seeds = 2 }, esim = { simulator = "esim" } }
+variants = { paper = { seeds = 2 }, esim = { simulator = "esim", sensor = "own.toml" } }
 """
 FOLDERS = """
 name = "folders"
@@ -152,6 +157,7 @@ RESUMABLE = {
         changes={
             "content": other_video,
             "times": other_times,
+            "sensor": other_sensor,
             "option": lambda: (*VIDEOS, "--contrast-threshold", 0.4),
             "seed": lambda: (*VIDEOS, "--seed", 5),
         },
@@ -178,6 +184,7 @@ RESUMABLE = {
         changes={
             "content": other_video,
             "times": other_times,
+            "sensor": other_sensor,
             "option": other_specification("min_events = 1", "min_events = 2"),
             "seed": other_specification("samples_per", "seed = 4\nsamples_per"),
         },

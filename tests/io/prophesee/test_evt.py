@@ -64,11 +64,12 @@ ANY = {
     "evt2": st.integers(0, 2**32 - 1) | st.integers(8 << 28, 8 << 28 | 100)
     | st.integers(0, 2**29 - 1),
     "evt21": st.integers(0, 2**64 - 1) | st.integers(0, 100).map(lambda high: 8 << 60 | high << 32)
-    | st.integers(0, 2**61 - 1),
+    | st.integers(0, 2**61 - 1) | st.integers(0, 2**29 - 1).map(lambda place: place << 32),
     "evt3": st.integers(0, 0xFFFF) | st.integers(0x8000, 0x8005)
-    | st.sampled_from([0x8FFF, 0x0001, 0x6001, 0x3801, 0x4FFF, 0x50FF, 0x2801]),
+    | st.builds(lambda kind, value: kind << 12 | value, st.sampled_from([0, 2, 3, 4, 5, 6, 8]),
+                st.sampled_from([0, 1, 0x100, 0x7FF, 0x801, 0xFFF])),
 }  # fmt: skip
-"""Words of each format: any, times and events."""
+"""Words of each format: any, times, events, and groups without or with every bit."""
 
 
 @pytest.mark.parametrize(

@@ -126,3 +126,14 @@ def test_pieces_fly_at_the_pace_of_what_breaks(pace):
             for scene, after in ((slow, after_s), (usual, pace * after_s))
         )
         np.testing.assert_allclose(np.concatenate(found), np.concatenate(expected), atol=1e-9)
+
+
+@pytest.mark.parametrize("noun", ["vase", "mug", "plate", "bottle", "glass", "cup", "window"])
+def test_pieces_have_the_colours_of_all_that_is_no_detail(noun):
+    scene = stage(thing(noun, ("break", None, 1.0)), place="plain")
+    (broken,) = scene.actors
+    parts = broken.model.parts(broken.pose(broken.breaks_s))
+    bulks = [np.prod(np.linalg.svd(one.to_body[:, :3])[1]) for one in parts]
+    bulky = {one.colour for one, bulk in zip(parts, bulks, strict=True) if bulk > 0.02 * max(bulks)}
+    for pieces in scene.particles.effects:
+        assert {tuple(one) for one in pieces.colours.tolist()} == bulky
