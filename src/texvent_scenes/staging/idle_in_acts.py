@@ -45,10 +45,8 @@ class _Staging:
 
     def differs(self, n: int, one: SceneObject) -> bool:
         """Whether another object in place of one changes a body."""
-        objects = list(self._scene.objects)
-        objects[n] = one
         try:
-            other = self._drawn(replace(self._scene, objects=tuple(objects)))
+            other = self._drawn(self._with(n, one))
         except ConfigError:  # another field contradicts it
             return True
         return len(self._usual) != len(other) or not all(map(_is_alike, self._usual, other))
@@ -60,10 +58,15 @@ class _Staging:
         turns = (abs(math.remainder(yaw - YAWS[direction], math.tau)) for yaw in yaws)
         return any(turn < _NEAR_RAD for turn in turns)
 
-    def settled(self, n: int) -> set[str]:
-        """Kinds of motion that the acts leave an object."""
-        description = complete(to_description(self._scene), self._nouns)
+    def settled(self, n: int, one: SceneObject) -> set[str]:
+        """Kinds of motion that the acts leave another object in place of one."""
+        description = complete(to_description(self._with(n, one)), self._nouns)
         return {one.kind for one in settle_motions(description, self._nouns, 0).objects[n].motions}
+
+    def _with(self, n: int, one: SceneObject) -> Scene:
+        objects = list(self._scene.objects)
+        objects[n] = one
+        return replace(self._scene, objects=tuple(objects))
 
     def _drawn(self, scene: Scene) -> list[list[Any]]:
         duration_s, start_s = self._start_s + _CLIP_S, self._start_s
@@ -102,7 +105,7 @@ def list_idle_in_acts(scene: Scene, nouns: Mapping[str, Noun]) -> Iterator[Idle]
                 yield Idle(f"objects[{n}].relations[{number}].to[1]",
                            f"{why}; give the other a relation of its own")  # fmt: skip
             acts.setdefault(n, said.kind)
-            if said.kind not in _IN_HAND:
+            if said.kind not in _IN_HAND or grips(one.noun, said.kind):
                 acts.update({ids.index(to): said.kind for to in said.to})
     moved = [n for n in acts if scene.objects[n].motions]
     if not moved:
@@ -118,12 +121,11 @@ def list_idle_in_acts(scene: Scene, nouns: Mapping[str, Noun]) -> Iterator[Idle]
 def _idle_of(
     where: str, n: int, one: SceneObject, act: str, staging: _Staging
 ) -> Iterator[Idle]:  # fmt: skip
-    settled = staging.settled(n)
     for number, motion in enumerate(one.motions):
         path, motions = f"{where}.motions[{number}]", one.motions
         without = replace(one, motions=(*motions[:number], *motions[number + 1 :]))
         if not staging.differs(n, without):
-            is_usual = motion.kind in settled | RESTS | {act}
+            is_usual = motion.kind in staging.settled(n, without) | RESTS | {act}
             idle = [each.name for each in fields(Motion) if each.name != "kind"
                     and getattr(motion, each.name) != each.default]  # fmt: skip
             why = f"its act ({act}) decides what a {one.noun} does; leave it out"
