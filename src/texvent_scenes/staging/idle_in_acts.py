@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields, replace
 from typing import Any
 
@@ -14,12 +14,14 @@ from texvent_scenes.defaults import complete
 from texvent_scenes.description import to_description
 from texvent_scenes.models.anchors import grips
 from texvent_scenes.models.protocol import Noun
+from texvent_scenes.spec.data import SENT
 from texvent_scenes.spec.scene import Motion, Scene, SceneObject, object_ids
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.idle_fields import RESTS, probes
 from texvent_scenes.staging.idle_surroundings import Idle
 from texvent_scenes.staging.interactions.perform import ACTS
 from texvent_scenes.staging.interactions.settling import settle_motions
+from texvent_scenes.staging.interactions.striking import IMPACTS
 from texvent_scenes.staging.placement.object_placement import ObjectPlacer
 from texvent_scenes.staging.tracks.phases import YAWS
 
@@ -94,6 +96,7 @@ def list_idle_in_acts(scene: Scene, nouns: Mapping[str, Noun]) -> Iterator[Idle]
     The acts of machines' hands are left out: `idle_acts` has those.
     """
     ids = object_ids(scene)
+    yield from _list_second(scene, ids)
     acts: dict[int, str] = {}
     for n, one in enumerate(scene.objects):
         for number, said in enumerate(one.relations):
@@ -116,6 +119,24 @@ def list_idle_in_acts(scene: Scene, nouns: Mapping[str, Noun]) -> Iterator[Idle]
         return
     for n in moved:
         yield from _idle_of(f"objects[{n}]", n, scene.objects[n], acts[n], staging)
+
+
+def _list_second(scene: Scene, ids: Sequence[str]) -> Iterator[Idle]:
+    """Impacts of bodies that have one already: each is in one, but what is sent may be caught."""
+    busy: dict[int, str] = {}
+    for n, one in enumerate(scene.objects):
+        for number, said in enumerate(one.relations):
+            if said.kind not in IMPACTS or grips(one.noun, said.kind):
+                continue
+            thing = ids.index(said.to[0])
+            for body in dict.fromkeys((n, thing)):
+                before = busy.get(body)
+                is_caught = body == thing and "catch" in (before, said.kind)
+                if before is not None and not (is_caught and {before, said.kind} & {*SENT}):
+                    why = f"{shown(ids[body])} is in another act already ({before})"
+                    yield Idle(f"objects[{n}].relations[{number}].kind",
+                               f"{why}, and does or takes one; leave one of them out")  # fmt: skip
+            busy |= {n: said.kind, thing: said.kind}
 
 
 def _idle_of(
