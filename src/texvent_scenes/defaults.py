@@ -429,7 +429,9 @@ def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
             name = label_of(description, n)
             note = f"no motion is said of the {name}, so it does what it usually does"
             return _note(_move(description, {n: Motion(usual)}), note)
-    is_seen = description.light.flicker_hz is not None
+    light = description.light
+    is_seen = any(one is not None for one in (light.flicker_hz, *(
+        lamp.frequency_hz for lamp in light.lamps)))  # fmt: skip
     if is_seen or description.place.weather in ("rain", "snow"):
         return description
     if description.camera.moves:

@@ -30,7 +30,7 @@ class IndexedRelation:
     start_s: float | None = None
     """Stated time at which an act begins, s."""
     direction: str | None = None
-    """Stated way of who runs into something."""
+    """Stated way of who kicks, throws or runs into something."""
 
 
 SEEN = "seen"

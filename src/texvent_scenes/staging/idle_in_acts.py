@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields, replace
 from typing import Any
 
@@ -14,12 +14,14 @@ from texvent_scenes.defaults import complete
 from texvent_scenes.description import to_description
 from texvent_scenes.models.anchors import grips
 from texvent_scenes.models.protocol import Noun
+from texvent_scenes.spec.data import SENT
 from texvent_scenes.spec.scene import Motion, Scene, SceneObject, object_ids
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.idle_fields import RESTS, probes
 from texvent_scenes.staging.idle_surroundings import Idle
 from texvent_scenes.staging.interactions.perform import ACTS
 from texvent_scenes.staging.interactions.settling import settle_motions
+from texvent_scenes.staging.interactions.striking import IMPACTS
 from texvent_scenes.staging.placement.object_placement import ObjectPlacer
 from texvent_scenes.staging.tracks.phases import YAWS
 
@@ -45,10 +47,8 @@ class _Staging:
 
     def differs(self, n: int, one: SceneObject) -> bool:
         """Whether another object in place of one changes a body."""
-        objects = list(self._scene.objects)
-        objects[n] = one
         try:
-            other = self._drawn(replace(self._scene, objects=tuple(objects)))
+            other = self._drawn(self._with(n, one))
         except ConfigError:  # another field contradicts it
             return True
         return len(self._usual) != len(other) or not all(map(_is_alike, self._usual, other))
@@ -60,10 +60,15 @@ class _Staging:
         turns = (abs(math.remainder(yaw - YAWS[direction], math.tau)) for yaw in yaws)
         return any(turn < _NEAR_RAD for turn in turns)
 
-    def settled(self, n: int) -> set[str]:
-        """Kinds of motion that the acts leave an object."""
-        description = complete(to_description(self._scene), self._nouns)
+    def settled(self, n: int, one: SceneObject) -> set[str]:
+        """Kinds of motion that the acts leave another object in place of one."""
+        description = complete(to_description(self._with(n, one)), self._nouns)
         return {one.kind for one in settle_motions(description, self._nouns, 0).objects[n].motions}
+
+    def _with(self, n: int, one: SceneObject) -> Scene:
+        objects = list(self._scene.objects)
+        objects[n] = one
+        return replace(self._scene, objects=tuple(objects))
 
     def _drawn(self, scene: Scene) -> list[list[Any]]:
         duration_s, start_s = self._start_s + _CLIP_S, self._start_s
@@ -91,6 +96,7 @@ def list_idle_in_acts(scene: Scene, nouns: Mapping[str, Noun]) -> Iterator[Idle]
     The acts of machines' hands are left out: `idle_acts` has those.
     """
     ids = object_ids(scene)
+    yield from _list_second(scene, ids)
     acts: dict[int, str] = {}
     for n, one in enumerate(scene.objects):
         for number, said in enumerate(one.relations):
@@ -102,7 +108,7 @@ def list_idle_in_acts(scene: Scene, nouns: Mapping[str, Noun]) -> Iterator[Idle]
                 yield Idle(f"objects[{n}].relations[{number}].to[1]",
                            f"{why}; give the other a relation of its own")  # fmt: skip
             acts.setdefault(n, said.kind)
-            if said.kind not in _IN_HAND:
+            if said.kind not in _IN_HAND or grips(one.noun, said.kind):
                 acts.update({ids.index(to): said.kind for to in said.to})
     moved = [n for n in acts if scene.objects[n].motions]
     if not moved:
@@ -115,15 +121,32 @@ def list_idle_in_acts(scene: Scene, nouns: Mapping[str, Noun]) -> Iterator[Idle]
         yield from _idle_of(f"objects[{n}]", n, scene.objects[n], acts[n], staging)
 
 
+def _list_second(scene: Scene, ids: Sequence[str]) -> Iterator[Idle]:
+    """Impacts of bodies that have one already: each is in one, but what is sent may be caught."""
+    busy: dict[int, str] = {}
+    for n, one in enumerate(scene.objects):
+        for number, said in enumerate(one.relations):
+            if said.kind not in IMPACTS or grips(one.noun, said.kind):
+                continue
+            thing = ids.index(said.to[0])
+            for body in dict.fromkeys((n, thing)):
+                before = busy.get(body)
+                is_caught = body == thing and "catch" in (before, said.kind)
+                if before is not None and not (is_caught and {before, said.kind} & {*SENT}):
+                    why = f"{shown(ids[body])} is in another act already ({before})"
+                    yield Idle(f"objects[{n}].relations[{number}].kind",
+                               f"{why}, and does or takes one; leave one of them out")  # fmt: skip
+            busy |= {n: said.kind, thing: said.kind}
+
+
 def _idle_of(
     where: str, n: int, one: SceneObject, act: str, staging: _Staging
 ) -> Iterator[Idle]:  # fmt: skip
-    settled = staging.settled(n)
     for number, motion in enumerate(one.motions):
         path, motions = f"{where}.motions[{number}]", one.motions
         without = replace(one, motions=(*motions[:number], *motions[number + 1 :]))
         if not staging.differs(n, without):
-            is_usual = motion.kind in settled | RESTS | {act}
+            is_usual = motion.kind in staging.settled(n, without) | RESTS | {act}
             idle = [each.name for each in fields(Motion) if each.name != "kind"
                     and getattr(motion, each.name) != each.default]  # fmt: skip
             why = f"its act ({act}) decides what a {one.noun} does; leave it out"

@@ -84,6 +84,22 @@ def test_what_flies_up_or_down_does_so_straight_but_for_aircraft_with_wings(row)
         assert abs(abs(last[2] - first[2]) - 2.0 * speed) < 0.3
 
 
+@for_every(itertools.product(("fish", "diver", "penguin", "dog", "woman", "whale"), ("up", "down"),
+                             (0.0, 0.5), (None, 0.6)))  # fmt: skip
+def test_what_swims_up_or_down_from_a_stated_time_on_does_so_straight(row):
+    noun, way, start_s, speed = row
+    motion = Motion("swim", way, start_s=start_s, speed_m_s=speed)
+    said = SceneObject(noun, motions=(motion,), position_m=(1.0, 2.0), height_m=6.0)
+    (one,) = compose(said, place=Place("underwater")).actors
+    times = (0.0, max(start_s - 0.3, 0.0), 2.0)
+    first, then, last = (np.array(one.track.at(at).position) for at in times)
+    assert np.hypot(*(last - first)[:2]) < 0.05 * abs(last[2] - first[2])
+    assert (last[2] > first[2]) == (way == "up")
+    np.testing.assert_allclose(first, then, atol=0.03)
+    if speed:
+        assert abs(last[2] - first[2]) == pytest.approx(speed * (2.0 - start_s), abs=0.2)
+
+
 @for_every(
     itertools.product(("box", "bottle", "cup"), (0.1, 0.5), ("left", "right"), (True, False))
 )

@@ -38,6 +38,8 @@ _GOALS = (1.0, 1.0, 0.9, 0.4, 0.3)
 _LARGE_IN_WIDE, _SMALL_TARGET = 0.75, 0.4
 """Prominence of the subject in a wide shot, and of what the camera is said to be about if those
 who act are more than twice as large, relative to its usual one."""
+_SMALL_AMONG_PLACED = 0.25
+"""Prominence of the subject among things whose places a file states: all of them are meant."""
 _KEPT_TOGETHER = frozenset(
     {"at", "on", "in", "above", "under", "behind", "front", "beside", "between", "around",
      "left of", "right of", "from behind"}
@@ -140,6 +142,8 @@ def list_framing_choices(
     goal = _LARGE_IN_WIDE if shot.framing == "wide" else 1.0
     is_large = any(one.is_mover and one.size_m > 2.0 * main.size_m for one in near)
     goal *= _SMALL_TARGET if shot.target is not None and is_large else 1.0
+    placed = [one for one in description.objects if one.position_m is not None]
+    goal *= _SMALL_AMONG_PLACED if len(placed) > 1 and shot.framing is None else 1.0
     copies = [one for one in actors if one.object_index == main.object_index]
     groups = _list_groups(description, near, main, whole)
     scopes = [*([scope] * (len(groups) - 1)), scope._replace(told=_TOUCHED)]

@@ -61,6 +61,7 @@ def perform_acts(
     cast = dict(enumerate(actors))
     placed = dict(cast)
     _turn_to_goals(cast, description.relations)
+    _turn_to_receivers(cast, description)
     _turn_queues(cast, description)
     acts = [one for one in description.relations if one.kind in ACTS and one.targets]
     for relation in sorted(acts, key=lambda one: list(ACTS).index(one.kind)):
@@ -90,6 +91,23 @@ def _turn_to_goals(cast: dict[int, Actor], relations: Sequence[IndexedRelation])
         if goals and one.track.is_resting and one.track.at(0.0).activity.split()[0] in AIMED:
             x, y = (goals[0].middle(0.0) - one.middle(0.0))[:2]
             cast[number] = replace(one, track=replace(one.track, yaw=float(np.arctan2(y, x))))
+
+
+def _turn_to_receivers(cast: dict[int, Actor], description: SceneDescription) -> None:
+    """Turn those who send something to who stands at a stated place, where they may be turned."""
+    objects, relations = description.objects, description.relations
+    sending = {one.subject for one in relations if one.kind in SENT and one.direction is None}
+    for each in relations:
+        goal, is_said = each.targets[0], objects[each.subject].heading_deg is not None
+        is_sent = each.kind == "towards" and each.subject in sending
+        if is_said or not is_sent or objects[goal].position_m is None:
+            continue
+        goals = [one for one in cast.values() if one.object_index == goal]
+        own = [n for n, one in cast.items() if one.object_index == each.subject]
+        for number in own if goals else ():
+            x, y = (goals[0].middle(0.0) - cast[number].middle(0.0))[:2]
+            track = replace(cast[number].track, yaw=math.atan2(y, x))
+            cast[number] = replace(cast[number], track=track)
 
 
 def _turn_queues(cast: dict[int, Actor], description: SceneDescription) -> None:
@@ -124,10 +142,11 @@ def _send_to(
                 cast[thing], wall, is_turned=said[goal].heading_deg is None,
                 is_moved=said[goal].position_m is None,
             )  # fmt: skip
-        elif wall.track.is_resting and said[goal].position_m is None:
+        elif wall.track.is_resting:
             cast[thing], cast[goals[0]] = striking.deliver(
-                cast[thing], wall, duration_s, is_thrown=act.kind == "throw"
-            )
+                cast[thing], wall, duration_s, is_thrown=act.kind == "throw",
+                is_placed=said[goal].position_m is not None,
+            )  # fmt: skip
 
 
 def _bear_down(cast: dict[int, Actor], relations: Sequence[IndexedRelation]) -> None:
@@ -199,7 +218,8 @@ def _act_where_stated(
     if relation.start_s is not None:
         contact_s = relation.start_s + striking.LEAD_S
         who = replace(who, track=replace(who.track, contact_s=contact_s))
-    if relation.direction in ("left", "right"):
+    runs = relation.kind in ("collide", "knock over")
+    if runs and relation.direction in ("left", "right"):
         who, what = _facing(who, what, is_right=relation.direction == "right")
     pair, acting = (who, what), act(who, what, duration_s, turn)
     is_stated = [objects[one.object_index].position_m is not None for one in pair]

@@ -18,6 +18,7 @@ from texvent_scenes.models.activities import (
 from texvent_scenes.models.people.outfit import can_be_worn, list_props
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
+from texvent_scenes.spec.data import SENT
 from texvent_scenes.spec.scene import Direction, Motion, SceneObject
 from texvent_scenes.staging.actors import seeded
 from texvent_scenes.staging.interactions import machines, striking
@@ -47,6 +48,7 @@ def settle_motions(
         for one in in_hand(description.relations, objects)
         for targets in ([(t,) for t in one.targets] if one.kind == "wear" else [one.targets])
     ]
+    relations = _sent_on(relations)
     relations += _implied_acts(objects, relations)
     relations = [_on_top(one, objects, relations) for one in relations]
     for relation in relations:
@@ -76,13 +78,31 @@ def settle_motions(
     return replace(description, objects=tuple(objects), relations=tuple(relations))
 
 
+def _sent_on(relations: Sequence[IndexedRelation]) -> list[IndexedRelation]:
+    """Relations in which a thing that one sends goes to who catches it, or to what it is towards.
+
+    The sender has them then.
+    """
+    senders = {one.targets[0]: one.subject for one in relations if one.kind in SENT}
+    found = []
+    for one in relations:
+        thing = one.targets[0] if one.kind == "catch" else one.subject
+        sender = senders.get(thing, one.subject)
+        if one.kind == "catch" and sender != one.subject:
+            one = IndexedRelation("towards", sender, (one.subject,))
+        elif one.kind == "towards" and sender != one.subject:
+            one = replace(one, subject=sender)
+        found.append(one)
+    return list(dict.fromkeys(found))
+
+
 def _stated(act: IndexedRelation, objects: Sequence[SceneObject]) -> IndexedRelation:
     """An impact with the time and the way that motions of its subject say."""
     impact, motions = striking.IMPACTS.get(act.kind), objects[act.subject].motions
     if impact is None:
         return act
     times = (one.start_s for one in motions if one.kind in (act.kind, impact.activity))
-    ways = (one.direction for one in motions if impact.activity is None and act.kind != "hit")
+    ways = (one.direction for one in motions if one.direction is not None)
     return replace(act, start_s=next(times, None), direction=next(ways, None))
 
 

@@ -286,11 +286,11 @@ def rebound(thing: Actor, wall: Actor, *, is_turned: bool, is_moved: bool) -> tu
 
 
 def deliver(
-    thing: Actor, receiver: Actor, duration_s: float, *, is_thrown: bool
+    thing: Actor, receiver: Actor, duration_s: float, *, is_thrown: bool, is_placed: bool = False
 ) -> tuple[Actor, Actor]:
     """Both, the thing ending at who receives it: caught if it is thrown, else before the feet.
 
-    The receiver stands on its way and faces it.
+    The receiver stands on its way and faces it; it flies to one who is placed.
     """
     track, person = thing.track, is_person(receiver)
     sent_s, size = sum(key.duration_s for key in track.keys[:-1]), size_of(receiver.model)
@@ -306,8 +306,21 @@ def deliver(
     terms = (one._replace(end_s=sent_s + flown_s) if one.drift else one for one in track.terms)
     sent = replace(track, keys=(*track.keys[:-1], flight, last), terms=tuple(terms))
     arm_m = 0.36 * size if person else 0.5 * receiver.model.length
+    if is_placed:
+        over = np.subtract(receiver.track.at(0.0).position[:2], (x, y))
+        room_m = arm_m + (0.0 if is_thrown else 0.5 * thing.model.length)
+        slows_s = 0.5 * last.ramp_s
+        speed = max(float(np.hypot(*over)) - room_m, 0.0) / (flown_s + slows_s)
+        turn = math.remainder(math.atan2(over[1], over[0]) - track.yaw, math.tau)
+        flight = replace(flight, speed_m_s=speed)
+        track = replace(track, yaw=track.yaw + turn)
+        terms = tuple(one._replace(offset=one.offset - turn * (one.channel == "yaw"))
+                      for one in sent.terms)  # fmt: skip
+        keys = (*track.keys[:-1], flight, last)
+        sent = replace(sent, yaw=track.yaw, keys=keys, terms=terms)
     way_m = speed * flown_s + arm_m + (0.0 if is_thrown else 0.5 * thing.model.length)
     place = ahead((x, y, level_m), track.yaw, way_m, level_m)
+    place = receiver.track.at(0.0).position if is_placed else place
     rest = steady(place, track.yaw + math.pi, activity="stand")
     if is_thrown and person:
         side, high = 0.5 * thing.model.width, 1.08 * size

@@ -92,6 +92,8 @@ def build_path(
     if start_m is None and next(active, "") == "fall":
         spans = [one.duration_s for one in phases if one.motion.kind == "fall"]
         start_m = fallen_m(model, spans[0] if spans else duration_s)
+    if any(one.kind == "swim" and one.direction in _UPRIGHT for one in motions):
+        noun = replace(noun, habitat="water")  # who dives goes up and down as fish do
     builder = _KeyBuilder(
         noun, model, stated_m_s, yaw, is_single=len(phases) == 1, spin_axis=spin_axis,
         start_m=start_m, has_times=any(one.start_s is not None for one in motions)
@@ -164,6 +166,8 @@ class _KeyBuilder(FlightKeys):
             self._travel(motion, span)
         elif motion.kind in ("rise", "sink"):
             self._climb(motion, span)
+            if phase.motion.kind == "swim":
+                self.keys[-1] = replace(self.keys[-1], activity=activity_of("swim"))
         elif motion.kind == "spin" and self._spin_axis != "yaw":
             self._spin_on(phase)
         elif motion.kind == "spin":

@@ -131,10 +131,14 @@ def needs_steering(motions: Sequence[Motion]) -> bool:
 
 
 def goes_straight_up(motion: Motion, noun: Noun) -> bool:
-    """Whether what flies goes straight up or down, as all do but aircraft with wings."""
-    is_aircraft = noun.name in nouns_with("takes off") or noun.habitat != "air"
-    is_upright = motion.kind in ("fly", "glide") and motion.direction in ("up", "down")
-    return is_upright and not is_aircraft and motion.end_pace is None
+    """Whether what flies goes straight up or down, as all do but aircraft with wings.
+
+    So does what swims from a stated time on.
+    """
+    is_free = motion.kind in ("fly", "glide") and noun.habitat == "air"
+    is_free |= motion.kind == "swim" and motion.start_s is not None
+    is_free &= noun.name not in nouns_with("takes off")
+    return is_free and motion.direction in ("up", "down") and motion.end_pace is None
 
 
 def fits_in_hand(motion: Motion, noun: Noun) -> bool:

@@ -11,6 +11,7 @@ from tests.scenes.staged import place
 from texvent.errors import ConfigError
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.scene_input import describe_scene
+from texvent_scenes.spec.data import SENT
 from texvent_scenes.spec.scene import Motion, Relation, RelationKind, Scene, SceneObject
 from texvent_scenes.staging.interactions.by_hand import BY_HAND
 from texvent_scenes.staging.interactions.perform import ACTS
@@ -130,3 +131,40 @@ def test_only_the_first_of_several_targets_is_acted_on_and_others_are_refused():
     who = SceneObject("man", relations=(Relation("push", ("box", "box 2")),))
     with pytest.raises(ConfigError, match=r"objects\[0\]\.relations\[0\]\.to\[1\] has no effect"):
         describe_scene(Scene(objects=(who, *boxes)), NOUNS)
+
+
+@for_every(itertools.product(
+    (("kick", "ball"), ("throw", "frisbee"), ("roll", "ball")), ("woman", "dog"),
+    ("sender", "thing", "catch"), ((None, None), (None, (-3.0, 1.5)), ((-2.0, 0.0), (2.5, 1.0))),
+))  # fmt: skip
+def test_what_is_sent_comes_from_the_sender_to_who_receives_it_wherever_both_are(row):
+    (kind, noun), other, way, (here, there) = row
+    to = Relation("towards", (other,))
+    sent = Relation(kind, (noun,))
+    who = SceneObject("man", position_m=here, relations=(sent, *[to] * (way == "sender")))
+    thing = SceneObject(noun, relations=(to,) * (way == "thing"))
+    caught = (Relation("catch", (noun,)),) * (way == "catch")
+    receiver = SceneObject(other, position_m=there, relations=caught)
+    bodies = accepted(who, thing, receiver)
+    assert bodies is not None
+    man, ball, last = sorted(bodies, key=lambda one: one.object_index)
+    for one, said in ((man, here), (last, there)):
+        if said is not None:
+            np.testing.assert_allclose(one.track.at(0.0).position[:2], said, atol=0.02)
+    assert np.hypot(*(ball.middle(0.0) - man.middle(0.0))[:2]) < 0.9
+    assert np.hypot(*(ball.middle(1.95) - last.middle(1.95))[:2]) < 1.1
+    assert np.hypot(*(last.middle(1.95) - man.middle(1.95))[:2]) > 1.2
+
+
+@for_every(itertools.product(
+    [kind for kind in KINDS if kind in IMPACTS], [kind for kind in KINDS if kind in IMPACTS],
+    (0, 1),
+))  # fmt: skip
+def test_a_body_in_a_second_impact_is_refused_but_for_what_is_caught(row):
+    first, second, by = row
+    acts = [Relation(first, ("ball",)), Relation(second, ("ball",))]
+    people = [SceneObject("man", relations=(acts[0], *acts[1:] * (by == 0))),
+              SceneObject("woman", relations=(*acts[1:] * (by == 1),))]  # fmt: skip
+    bodies = accepted(*people, SceneObject("ball"))
+    is_caught = by == 1 and "catch" in (first, second) and {first, second} & {*SENT}
+    assert (bodies is not None) == bool(is_caught)
