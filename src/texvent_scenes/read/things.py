@@ -81,9 +81,6 @@ def name_group(
         return []  # "on the roof of a hospital": in no ward
     if head is not None and names_place(head, relation) and not is_trajectory(group):
         set_place(draft, group, head, relation)
-        for token in group.unknown:  # "a mountain road"
-            if {one.value for one in token.all("place")} & word_set("things", "backdrops"):
-                set_place(draft, Group(token), token, "in")
     elif head is not None and (whole := _find_whole(draft, group)):
         found = name_group(draft, whole, relation, owners)
         draft.claim(head, SEEN, "", found)

@@ -246,14 +246,10 @@ class SceneDraft(Abilities):
         """The words with which a token is told, or its own."""
         return self.compounds.get(token.at, token.text)
 
-    def phrase_of(self, first: Token, last: Token) -> str:
-        """The words from one token up to another, each once."""
-        words = self.tokens[first.at : last.at + 1]
-        return " ".join(self.text_of(one) for one in words if self.fates.get(one.at) != "")
-
     def join(self, tokens: Sequence[Token]) -> None:
         """Tell tokens that are lost, with those between them, as one."""
-        text = self.phrase_of(tokens[0], tokens[-1]) if tokens else ""
+        words = self.tokens[tokens[0].at : tokens[-1].at + 1] if tokens else ()
+        text = " ".join(self.text_of(one) for one in words if self.fates.get(one.at) != "")
         self.compounds |= {one.at: text for one in tokens}
 
 

@@ -18,7 +18,7 @@ from texvent_scenes.read.parsing.groups import (
     nouns_of,
 )
 from texvent_scenes.read.parsing.lexicon import lexicon_of, list_forms, word_set, word_table
-from texvent_scenes.read.parsing.tokens import NO_TOKEN, SHOTS, Token
+from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
 
 _LED = frozenset({"follow", "orbit"})
 """Moves of a camera about somebody: "tracking shot following a cyclist"."""
@@ -155,7 +155,7 @@ class _Parser(GroupReader):
 
     def _goes_on(self, verb: Token) -> bool:
         """Whether another verb of the same form follows in a list: "rolls, stops and falls"."""
-        forms = {one.form for one in verb.all("verb")} & {"s", "ing"} or {"s"}  # "to catch it, runs"
+        forms = {one.form for one in verb.all("verb")} & {"s", "ing"} or {"s"}
         is_subject = self._token().has("noun") and self._token(1).verbs("base", "ing")
         return bool(self._token().verbs(*forms)) and not is_subject
 
@@ -191,10 +191,9 @@ class _Parser(GroupReader):
 
     def _names_purpose(self) -> bool:
         """Whether "to" leads to what is done to something: "leaps to catch a frisbee"."""
-        done, others = self._token(1), word_set("things", "unfulfilled")
-        is_done = bool(done.verbs("base")) and not done.has(*HEADS, *MODIFIERS)
-        has_object = self._starts_group(2) or self._token(2).has("pronouns")
-        return is_done and has_object and self._token(-1).text not in others
+        done, is_so = self._token(1), self._token(-1).text not in word_set("things", "unfulfilled")
+        is_so &= bool(done.verbs("base")) and not done.has(*HEADS, *MODIFIERS)
+        return is_so and (self._starts_group(2) or self._token(2).has("pronouns"))
 
     def _begin_kept(self) -> Clause | None:
         """Clause of a camera that keeps its subject in view: "keeps her in frame"."""
@@ -235,7 +234,7 @@ class _Parser(GroupReader):
         ahead = 1 if self._token().has("articles") else 0
         token, after = self._token(ahead), self._token(ahead + 1)
         is_shot = token.has("shot") and after.has("verb")
-        if token.text.endswith(SHOTS):  # "the shot slowly zooms in"
+        if token.text.endswith(("shot", "footage")):  # "the shot slowly zooms in"
             done = self._token(ahead + 1 + after.has("adverb")).verbs("s")
             is_shot |= any(one.value.who == "camera" for one in done)
         is_shot &= bool(ahead) and not token.has("noun")
@@ -327,7 +326,7 @@ class _Parser(GroupReader):
         if not is_back and is_lone:
             if token.has("adverb") or not (token.has("relation") or is_passive):
                 return None
-            is_end = token.text == "behind" and (self._token(1).is_sign or self._token(1).text == "and")
+            is_end = token.text == "behind" and self._token(1).text in (*",.;!?", "and")
             said = Phrase(self._take(), ()) if is_end and clause.has_subject else self._take()
             return replace(clause, after=(*clause.after, said))
         self._at += 1 + is_back

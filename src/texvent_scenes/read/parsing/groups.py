@@ -297,8 +297,8 @@ class GroupReader:
         led = token_at(self._tokens, first - 1)
         is_lone = is_inert and not (article or any(one.is_plural for one in nouns))
         is_lone &= led.has("verb", "relation") and not led.has("noun")  # "wears oven gloves"
-        led = self._token(1)
-        is_lone |= self._has_verb or (bool(led.verbs("s")) and not led.has("noun"))  # "guards hovers"
+        led = self._token(1)  # "with guards hovers"
+        is_lone |= self._has_verb or (bool(led.verbs("s")) and not led.has("noun"))
         is_verb = after.text.endswith(("ing", "ed", "ly", *(() if is_lone else ("s",))))
         is_verb |= after.has("other")
         is_word = after.is_unknown or (is_named and is_inert)  # "a chair lift"
