@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from texvent_scenes.description import SEEN
@@ -89,7 +89,7 @@ def _pace_before(draft: SceneDraft, token: Token) -> dict[str, Any]:
 def _is_room_again(draft: SceneDraft, head: Token) -> bool:
     """Whether "the room" is the one that was named: "a robot in a laboratory. The room is dark"."""
     is_floor = head.text == "floor" and not draft.last.was_camera
-    return (head.text == "room" or is_floor) and is_room(draft.parts["place"].get("name", ""))
+    return (head.text == "room" or is_floor) and is_room(draft.parts["place"].get("name", "plain"))
 
 
 def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> None:
