@@ -273,7 +273,7 @@ def _pass_fixed(draft: SceneDraft) -> None:
     for at, claims in [*draft.claims.items()]:
         verb = draft.tokens[at]
         is_by = any(one.value.relation == "past" for one in verb.all("verb"))
-        is_by |= draft.beside(verb, 1).text in word_set("things", "by")
+        is_by |= draft.beside(verb, 1).text in word_set("things", "by") and not verb.verbs("ed")
         about = {one.subject for one in claims if one.subject is not None and verb.has("verb")}
         fixed = [n for n in sorted(about) if draft.noun(n).habitat == "fixed"
                  and not (draft.is_light(n) and (draft.targets([n], ["on"]) or not draft.moves))

@@ -326,7 +326,7 @@ class _Parser(GroupReader):
         if not is_back and is_lone:
             if token.has("adverb") or not (token.has("relation") or is_passive):
                 return None
-            is_end = token.text == "behind" and self._token(1).text in (*",.;!?", "and")
+            is_end = token.text in ("behind", "alongside") and self._token(1).text in (*",.;!?", "and")
             said = Phrase(self._take(), ()) if is_end and clause.has_subject else self._take()
             return replace(clause, after=(*clause.after, said))
         self._at += 1 + is_back

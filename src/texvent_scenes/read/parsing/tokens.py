@@ -314,8 +314,13 @@ def _is_shade(words: Sequence[str], end: int, lexicon: Lexicon) -> bool:
 
 
 def _is_doing(words: Sequence[str], end: int, lexicon: Lexicon) -> bool:
-    """Whether the last word of a phrase does what follows: "in the snow falling on a street"."""
+    """Whether the last word of a phrase does what follows: "in the snow falling on a street".
+
+    Or leads to it: "tilts up to follow", no "up to".
+    """
     both = tuple(one.casefold() for one in words[end : end + 2])
+    if len(both) == 2 and both[0] == "to":
+        return {one.form for one in lexicon.get(both[1:], ())} == {"base"}
     is_act = len(both) == 2 and both[1].endswith("ing")
     return is_act and any(one.kind in ("scene", "effect") for one in lexicon.get(both, ()))
 
