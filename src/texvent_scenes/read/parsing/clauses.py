@@ -124,11 +124,8 @@ class _Parser(GroupReader):
         if clause.verb is not None and self._token().is_unknown and self._has_object():
             return Clause(about="same", verb=self._take())  # "and wugs it"
         ahead = 1 if self._token().has("articles") else 0
-        starts = (
-            self._starts_group()
-            or self._token(ahead).has("camera")
-            or self._token().says("adverb", "start_s")
-        )
+        starts = self._starts_group() or self._token(ahead).has("camera")
+        starts = starts or self._token().says("adverb", "start_s")
         return Clause() if starts and (clause.verb or clause.after) else None
 
     def _go_on(self, clause: Clause) -> Clause | None:
@@ -326,7 +323,10 @@ class _Parser(GroupReader):
         if not is_back and is_lone:
             if token.has("adverb") or not (token.has("relation") or is_passive):
                 return None
-            is_end = token.text in ("behind", "alongside") and self._token(1).text in (*",.;!?", "and")
+            is_end = token.text in ("behind", "alongside") and self._token(1).text in (
+                *",.;!?",
+                "and",
+            )
             said = Phrase(self._take(), ()) if is_end and clause.has_subject else self._take()
             return replace(clause, after=(*clause.after, said))
         self._at += 1 + is_back

@@ -64,14 +64,8 @@ class Group:
     def picks(self) -> str:
         """As "one" or "two" of several things that are named, "other", "leader", or ""."""
         words = [one.text for one in self.unknown if self.head is None]
-        known = (
-            "other",
-            "others",
-            "one",
-            "another",
-            *ordinals(),
-            *sorted(word_set("things", "members")),
-        )
+        members = sorted(word_set("things", "members"))
+        known = ("other", "others", "one", "another", *ordinals(), *members)
         if self.count > 1 and not {"other", "others"} & {*words}:
             is_part = self.of is not None and len(words) == 1 and words != ["both"]
             return words[0] if is_part else ""

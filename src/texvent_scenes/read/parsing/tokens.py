@@ -314,10 +314,7 @@ def _is_shade(words: Sequence[str], end: int, lexicon: Lexicon) -> bool:
 
 
 def _is_doing(words: Sequence[str], end: int, lexicon: Lexicon) -> bool:
-    """Whether the last word of a phrase does what follows: "in the snow falling on a street".
-
-    Or leads to it: "tilts up to follow", no "up to".
-    """
+    """Whether a phrase's last word does what follows, or leads to it: "tilts up to follow"."""
     both = tuple(one.casefold() for one in words[end : end + 2])
     if len(both) == 2 and both[0] == "to":
         return {one.form for one in lexicon.get(both[1:], ())} == {"base"}
