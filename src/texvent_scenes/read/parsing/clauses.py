@@ -176,8 +176,8 @@ class _Parser(GroupReader):
             return Clause(about="nearest")  # "drives a tractor followed by birds"
         if verb is None or (verb.is_unknown and verb is self._token(-1)):
             return None
-        is_next = verb is self._token(-1 - self._token(-1).has("adverb"))
-        if token.text == "to" and is_next and self._names_purpose():
+        is_led = verb is self._token(-1 - self._token(-1).has("adverb"))
+        if token.text == "to" and is_led and self._names_purpose():
             self._take()
             return Clause(about="camera" if clause.about == "camera" else "same")
         is_open = bool(verb.verbs("ing")) or clause.about == "nearest"
@@ -327,8 +327,9 @@ class _Parser(GroupReader):
                 *",.;!?",
                 "and",
             )
-            said = Phrase(self._take(), ()) if is_end and clause.has_subject else self._take()
-            return replace(clause, after=(*clause.after, said))
+            is_back = is_end and clause.has_subject
+            word = self._take()
+            return replace(clause, after=(*clause.after, Phrase(word, ()) if is_back else word))
         self._at += 1 + is_back
         if token.text in _IS:  # "the ball is red"
             group = self._group()
