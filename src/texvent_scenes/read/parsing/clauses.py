@@ -9,7 +9,6 @@ from functools import cache
 from texvent_scenes.models.people.outfit import can_be_worn
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.parsing.groups import (
-    HEADS,
     MODIFIERS,
     Group,
     GroupReader,
@@ -185,12 +184,6 @@ class _Parser(GroupReader):
         forms = ("ing", "s", "base") if is_open else ("ing", "s") if is_state else ("ing",)
         is_next = token.verbs(*forms) and self._is_verb(replace(clause, verb=None))
         return Clause(about="meanwhile") if is_next else None
-
-    def _names_purpose(self) -> bool:
-        """Whether "to" leads to what is done to something: "leaps to catch a frisbee"."""
-        done, is_so = self._token(1), self._token(-1).text not in word_set("things", "unfulfilled")
-        is_so &= bool(done.verbs("base")) and not done.has(*HEADS, *MODIFIERS)
-        return is_so and (self._starts_group(2) or self._token(2).has("pronouns"))
 
     def _begin_kept(self) -> Clause | None:
         """Clause of a camera that keeps its subject in view: "keeps her in frame"."""
@@ -403,16 +396,3 @@ class _Parser(GroupReader):
                 break
             found.append(group)
         return tuple(found)
-
-    def _share_verb(self, groups: Sequence[Group]) -> bool:
-        """Whether a list of bare plurals does what follows: "with cars and dogs running"."""
-        is_bare = all(one.is_plural and not one.article for one in groups)
-        return is_bare and bool(self._token().verbs("ing"))
-
-    def _is_like(self, preposition: Token) -> bool:
-        """Whether a preposition is here like the one before, or one with a pronoun."""
-        token, positions = self._token(), word_set("things", "positions") - {"between"}
-        kinds = preposition.relations | token.relations
-        is_back = preposition.text != "with" and self._token(1).has("pronouns")
-        is_both = token.has("relation") and preposition.has("relation")
-        return is_both and (token.text == preposition.text or is_back or kinds <= positions)
