@@ -21,12 +21,6 @@ from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
 from texvent_scenes.spec.data import scene_from_data
 from texvent_scenes.spec.scene import Scene, number_nouns
 
-_BETWEEN = ("articles", "pronouns")
-"""Kinds of words that join lost ones, as words of `grammar` do but for conjunctions."""
-_DRAWN = ("noun", "place", "effect", "hollow")
-"""Kinds of heads, which have words before them."""
-_LEADING = ("relation", "small", "adverb")
-"""Kinds of words before a head that are none of its own."""
 _LONGEST = 2 * MAX_WORD
 """Characters of lost words that are told as one: a report shortens what is longer."""
 
@@ -110,25 +104,24 @@ def _join_lost(draft: SceneDraft, ends: Sequence[str]) -> None:
 
     What a check may still find stays apart, and each word before a thing that is drawn.
     """
-    phrase: list[Token] = []
+    run: list[Token] = []
     for token, end in zip((*draft.tokens, NO_TOKEN), (*ends, "."), strict=True):
         is_lost = end == "lost" and not any(one.is_open for one in draft.claims.get(token.at, ()))
-        is_between = token.has(*_BETWEEN) or token.text in word_set("things", "grammar") | {"to"}
+        is_between = token.is_grammar and not token.has("conjunctions", "camera")
         if token.text in ("and", "or"):  # "white and red streaks"
             sides = [draft.beside(token, step) for step in (-1, 1)]
-            is_between = phrase[-1:] == sides[:1] and all(one.has("field") for one in sides)
-        if (is_between and not end) or draft.fates.get(token.at) == "":
+            is_between = run[-1:] == sides[:1] and all(one.has("field") for one in sides)
+        if not end and (is_between or token.text == "to" or token.at in draft.fates):
             continue
-        if is_lost and (not phrase or len(draft.phrase_of(phrase[0], token)) <= _LONGEST):
-            phrase.append(token)
+        words = draft.tokens[run[0].at : token.at + 1] if run else ()
+        if is_lost and sum(len(one.text) + 1 for one in words) <= _LONGEST:
+            run.append(token)
             continue
-        is_drawn, head = end != "lost" and token.has(*_DRAWN), token
-        while (
-            phrase and is_drawn and phrase[-1].at + 1 == head.at and not phrase[-1].has(*_LEADING)
-        ):
-            head = phrase.pop()
-        draft.join(phrase)
-        phrase = [token] if is_lost else []
+        at = token.at if end != "lost" and token.has("noun", "place", "effect", "hollow") else 0
+        while run and run[-1].at == at - 1 and not run[-1].has("relation", "small", "adverb"):
+            at = run.pop().at
+        draft.join(run)
+        run = [token] if is_lost else []
 
 
 def _sees_itself(draft: SceneDraft) -> bool:

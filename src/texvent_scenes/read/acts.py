@@ -263,12 +263,8 @@ def begin(draft: SceneDraft, verb: Token, subjects: Indices) -> None:
     for index in subjects:
         motions = draft.things[index]["motions"]
         is_machine = draft.noun(index).is_working and not draft.can_go(index)
-        if is_machine and [one["kind"] for one in motions] in (
-            ["spin"],
-            ["work"],
-            ["turn"],
-            ["move"],
-        ):
+        is_machine &= len(motions) == 1 and motions[0]["kind"] in ("spin", "work", "turn", "move")
+        if is_machine:
             motions[0] |= {"kind": "work", "pace": _SLOW, "end_pace": _FAST}
         elif len(motions) == 1 and motions[0]["kind"] != "stand":
             motions.insert(0, {"kind": "stand"})

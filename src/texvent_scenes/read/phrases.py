@@ -239,6 +239,9 @@ def _relate_back(draft: SceneDraft, kind: str, phrase: Phrase, subjects: Indices
     is_own = bool(set(nearest) & own) or (is_many and not draft.is_many(nearest))
     others: Indices = subjects
     about: Indices = draft.last.earlier if is_own else nearest
+    people = [one for one in draft.find(PERSON_NOUNS) if one not in own]
+    if draft.beside(token, 1).text in ("her", "him") and people and not {*people} & {*about}:
+        about, nearest, is_own = people[-1:], [], True  # "lit by a lamp, a shelf behind her"
     is_fixed = draft.last.where and not any(map(draft.can_go, draft.last.where))
     if is_own and is_fixed and kind in word_set("things", "bearing"):
         about = draft.last.where

@@ -364,10 +364,8 @@ def looks_at_contact(draft: SceneDraft, phrase: Phrase) -> bool:
     words = [one for one in draft.tokens[phrase.preposition.at + 1 :] if not one.has("articles")]
     words = [*itertools.takewhile(lambda one: not (one.is_sign or one.has("verb")), words)]
     said = [one for one in words if one.text in word_set("things", "contacts")]
-    who = [
-        n for n, one in enumerate(draft.things)
-        if {each["kind"] for each in one["motions"]} & SINGLE_ACTS or draft.acts([n]) & _HITS
-    ]  # fmt: skip
+    who = [n for n in range(len(draft.things)) if draft.does([n]) & SINGLE_ACTS
+           or draft.acts([n]) & _HITS]  # fmt: skip
     if phrase.preposition.text not in ("on", "at") or not (said and who):
         return False
     draft.parts["camera"].setdefault("target", who[0])

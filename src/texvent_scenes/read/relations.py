@@ -235,21 +235,8 @@ def _has_bench(thing: Mapping[str, Any]) -> bool:
 def _works(thing: Mapping[str, Any]) -> bool:
     """Whether a person does something with the hands there."""
     does = {one["kind"] for one in thing["motions"]} & ACTIVITIES.keys()
-    stays = {
-        "stand",
-        "sit",
-        "lie",
-        "jump",
-        "dance",
-        "walk",
-        "run",
-        "crawl",
-        "climb",
-        "sit down",
-        "stand up",
-        "kneel",
-        "crouch",
-    }
+    stays = {"stand", "sit", "lie", "jump", "dance", "walk", "run", "crawl", "climb", "sit down",
+             "stand up", "kneel", "crouch"}  # fmt: skip
     return thing["noun"] in PERSON_NOUNS and bool(does - stays)
 
 

@@ -81,9 +81,6 @@ def name_group(
         return []  # "on the roof of a hospital": in no ward
     if head is not None and names_place(head, relation) and not is_trajectory(group):
         set_place(draft, group, head, relation)
-        for token in group.unknown:  # "a mountain road"
-            if {one.value for one in token.all("place")} & word_set("things", "backdrops"):
-                set_place(draft, Group(token), token, "in")
     elif head is not None and (whole := _find_whole(draft, group)):
         found = name_group(draft, whole, relation, owners)
         draft.claim(head, SEEN, "", found)
@@ -125,12 +122,9 @@ def _find_whole(draft: SceneDraft, group: Group) -> Group | None:
     if whole is None or whole.noun is None or not whole.article or group.article != "the":
         return None
     apart = word_set("things", "vessels") | word_set("things", "depictions")
-    is_apart = (
-        part in apart
-        or any(one in draft.nouns and draft.nouns[one].speed_m_s for one in (part, whole.noun.noun))
-        or whole.noun.noun in PERSON_NOUNS
-    )
-    return None if is_apart else whole
+    going = [one for one in (part, whole.noun.noun)
+             if one in draft.nouns and draft.nouns[one].speed_m_s]  # fmt: skip
+    return None if going or part in apart or whole.noun.noun in PERSON_NOUNS else whole
 
 
 def _light_own(draft: SceneDraft, group: Group) -> None:

@@ -273,7 +273,7 @@ def _pass_fixed(draft: SceneDraft) -> None:
     for at, claims in [*draft.claims.items()]:
         verb = draft.tokens[at]
         is_by = any(one.value.relation == "past" for one in verb.all("verb"))
-        is_by |= draft.beside(verb, 1).text in word_set("things", "by")
+        is_by |= draft.beside(verb, 1).text in word_set("things", "by") and not verb.verbs("ed")
         about = {one.subject for one in claims if one.subject is not None and verb.has("verb")}
         fixed = [n for n in sorted(about) if draft.noun(n).habitat == "fixed"
                  and not (draft.is_light(n) and (draft.targets([n], ["on"]) or not draft.moves))
@@ -307,27 +307,9 @@ def _stand_tall(draft: SceneDraft) -> None:
 
 
 _DECISIONS: tuple[Callable[[SceneDraft], object], ...] = (
-    _choose_gender,
-    _look_at_held,
-    _lead_view,
-    _ride_on,
-    _do_deeds,
-    _find_opponents,
-    _hang_up,
-    _stand_level,
-    _tell_riders,
-    _tell_stars,
-    _tell_above_ground,
-    find_sources,
-    leave_sky,
-    _turn_marks,
-    _skate_on_ice,
-    _bring_home,
-    _limit_counts,
-    _look_up,
-    _bring_weather,
-    _claim_levels,
-    _pass_fixed,
-    _stand_tall,
-)
+    _choose_gender, _look_at_held, _lead_view, _ride_on, _do_deeds, _find_opponents, _hang_up,
+    _stand_level, _tell_riders, _tell_stars, _tell_above_ground, find_sources, leave_sky,
+    _turn_marks, _skate_on_ice, _bring_home, _limit_counts, _look_up, _bring_weather, _claim_levels,
+    _pass_fixed, _stand_tall,
+)  # fmt: skip
 """Decisions, in their order."""

@@ -186,10 +186,9 @@ class SceneDraft(Abilities):
     def quicken(self, end_pace: float) -> bool:
         """Let the camera's moves go over to a pace by steps; False: they have steps already."""
         moves = [*self.moves]
-        is_open = bool(moves) and all(
-            one["kind"] in _QUICKENED and not one.keys() & {"phase", "start_s", "speed_m_s"}
-            for one in moves
-        )
+        timed = {"phase", "start_s", "speed_m_s"}
+        is_open = bool(moves) and {one["kind"] for one in moves} <= _QUICKENED
+        is_open &= not any(one.keys() & timed for one in moves)
         for phase in range(_STEPS if is_open else 0):
             by = round(1.0 + (end_pace - 1.0) * phase / (_STEPS - 1), 3)
             said = [{**one, "pace": round(one.get("pace", 1.0) * by, 3)} for one in moves]
@@ -246,14 +245,10 @@ class SceneDraft(Abilities):
         """The words with which a token is told, or its own."""
         return self.compounds.get(token.at, token.text)
 
-    def phrase_of(self, first: Token, last: Token) -> str:
-        """The words from one token up to another, each once."""
-        words = self.tokens[first.at : last.at + 1]
-        return " ".join(self.text_of(one) for one in words if self.fates.get(one.at) != "")
-
     def join(self, tokens: Sequence[Token]) -> None:
         """Tell tokens that are lost, with those between them, as one."""
-        text = self.phrase_of(tokens[0], tokens[-1]) if tokens else ""
+        words = self.tokens[tokens[0].at : tokens[-1].at + 1] if tokens else ()
+        text = " ".join(self.text_of(one) for one in words if self.fates.get(one.at) != "")
         self.compounds |= {one.at: text for one in tokens}
 
 
@@ -262,11 +257,8 @@ def split_move(phrase: str) -> dict[str, Any]:
     kind, _, direction = phrase.partition(" ")
     direction, _, means = direction.partition(" ") if kind == "travel" else (direction, "", "")
     is_turned = direction in (get_args(MoveDirection) if kind not in _UNTURNED else ("all axes",))
-    return {
-        "kind": kind,
-        **({"direction": direction} if is_turned else {}),
-        **({"means": means} if means else {}),
-    }
+    said = {"kind": kind, "direction": direction if is_turned else "", "means": means}
+    return {name: value for name, value in said.items() if value}
 
 
 def turn_by(move: Mapping[str, Any], name: str, value: Any) -> dict[str, Any]:

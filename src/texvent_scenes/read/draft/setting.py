@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from texvent_scenes.description import SEEN
@@ -86,16 +86,17 @@ def _pace_before(draft: SceneDraft, token: Token) -> dict[str, Any]:
     return {"pace": value}
 
 
-def _is_room_again(head: Token, place: Mapping[str, Any]) -> bool:
+def _is_room_again(draft: SceneDraft, head: Token) -> bool:
     """Whether "the room" is the one that was named: "a robot in a laboratory. The room is dark"."""
-    return head.text in ("room", "floor") and "name" in place and is_room(place["name"])
+    is_floor = head.text == "floor" and not draft.last.was_camera
+    return (head.text == "room" or is_floor) and is_room(draft.parts["place"].get("name", "plain"))
 
 
 def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> None:
     """As "on a snowy road", "a red sky", "a mountain road"; a second place is far off."""
     place = draft.parts["place"]
     name = head.all("place")[0].value
-    name = place["name"] if _is_room_again(head, place) else name
+    name = place["name"] if _is_room_again(draft, head) else name
     is_it = name in ("sky", place.get("name", name))
     for token in group.modifiers:
         _say_of_place(draft, token, name, is_it=is_it)
@@ -120,6 +121,9 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
         place.setdefault("name", name) == name or place["name"] in _true_of(head)
     ):  # "grass" in a park
         draft.mark(head, name if head.text in word_set("things", "stand_ins") else "shown")
+    for token in group.unknown:  # "a mountain road"
+        if {one.value for one in token.all("place")} & word_set("things", "backdrops"):
+            set_place(draft, Group(token), token, "in")
 
 
 def _say_of_place(draft: SceneDraft, token: Token, name: str, *, is_it: bool) -> None:

@@ -9,7 +9,6 @@ from functools import cache
 from texvent_scenes.models.people.outfit import can_be_worn
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.parsing.groups import (
-    HEADS,
     MODIFIERS,
     Group,
     GroupReader,
@@ -18,7 +17,7 @@ from texvent_scenes.read.parsing.groups import (
     nouns_of,
 )
 from texvent_scenes.read.parsing.lexicon import lexicon_of, list_forms, word_set, word_table
-from texvent_scenes.read.parsing.tokens import NO_TOKEN, SHOTS, Token
+from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
 
 _LED = frozenset({"follow", "orbit"})
 """Moves of a camera about somebody: "tracking shot following a cyclist"."""
@@ -124,11 +123,8 @@ class _Parser(GroupReader):
         if clause.verb is not None and self._token().is_unknown and self._has_object():
             return Clause(about="same", verb=self._take())  # "and wugs it"
         ahead = 1 if self._token().has("articles") else 0
-        starts = (
-            self._starts_group()
-            or self._token(ahead).has("camera")
-            or self._token().says("adverb", "start_s")
-        )
+        starts = self._starts_group() or self._token(ahead).has("camera")
+        starts = starts or self._token().says("adverb", "start_s")
         return Clause() if starts and (clause.verb or clause.after) else None
 
     def _go_on(self, clause: Clause) -> Clause | None:
@@ -155,7 +151,7 @@ class _Parser(GroupReader):
 
     def _goes_on(self, verb: Token) -> bool:
         """Whether another verb of the same form follows in a list: "rolls, stops and falls"."""
-        forms = {one.form for one in verb.all("verb")} & {"s", "ing"} or {"s"}  # "to catch it, runs"
+        forms = {one.form for one in verb.all("verb")} & {"s", "ing"} or {"s"}
         is_subject = self._token().has("noun") and self._token(1).verbs("base", "ing")
         return bool(self._token().verbs(*forms)) and not is_subject
 
@@ -179,8 +175,8 @@ class _Parser(GroupReader):
             return Clause(about="nearest")  # "drives a tractor followed by birds"
         if verb is None or (verb.is_unknown and verb is self._token(-1)):
             return None
-        is_next = verb is self._token(-1 - self._token(-1).has("adverb"))
-        if token.text == "to" and is_next and self._names_purpose():
+        is_led = verb is self._token(-1 - self._token(-1).has("adverb"))
+        if token.text == "to" and is_led and self._names_purpose():
             self._take()
             return Clause(about="camera" if clause.about == "camera" else "same")
         is_open = bool(verb.verbs("ing")) or clause.about == "nearest"
@@ -188,13 +184,6 @@ class _Parser(GroupReader):
         forms = ("ing", "s", "base") if is_open else ("ing", "s") if is_state else ("ing",)
         is_next = token.verbs(*forms) and self._is_verb(replace(clause, verb=None))
         return Clause(about="meanwhile") if is_next else None
-
-    def _names_purpose(self) -> bool:
-        """Whether "to" leads to what is done to something: "leaps to catch a frisbee"."""
-        done, others = self._token(1), word_set("things", "unfulfilled")
-        is_done = bool(done.verbs("base")) and not done.has(*HEADS, *MODIFIERS)
-        has_object = self._starts_group(2) or self._token(2).has("pronouns")
-        return is_done and has_object and self._token(-1).text not in others
 
     def _begin_kept(self) -> Clause | None:
         """Clause of a camera that keeps its subject in view: "keeps her in frame"."""
@@ -235,7 +224,7 @@ class _Parser(GroupReader):
         ahead = 1 if self._token().has("articles") else 0
         token, after = self._token(ahead), self._token(ahead + 1)
         is_shot = token.has("shot") and after.has("verb")
-        if token.text.endswith(SHOTS):  # "the shot slowly zooms in"
+        if token.text.endswith(("shot", "footage")):  # "the shot slowly zooms in"
             done = self._token(ahead + 1 + after.has("adverb")).verbs("s")
             is_shot |= any(one.value.who == "camera" for one in done)
         is_shot &= bool(ahead) and not token.has("noun")
@@ -327,9 +316,13 @@ class _Parser(GroupReader):
         if not is_back and is_lone:
             if token.has("adverb") or not (token.has("relation") or is_passive):
                 return None
-            is_end = token.text == "behind" and (self._token(1).is_sign or self._token(1).text == "and")
-            said = Phrase(self._take(), ()) if is_end and clause.has_subject else self._take()
-            return replace(clause, after=(*clause.after, said))
+            is_end = token.text in ("behind", "alongside") and self._token(1).text in (
+                *",.;!?",
+                "and",
+            )
+            is_back = is_end and clause.has_subject
+            word = self._take()
+            return replace(clause, after=(*clause.after, Phrase(word, ()) if is_back else word))
         self._at += 1 + is_back
         if token.text in _IS:  # "the ball is red"
             group = self._group()
@@ -403,16 +396,3 @@ class _Parser(GroupReader):
                 break
             found.append(group)
         return tuple(found)
-
-    def _share_verb(self, groups: Sequence[Group]) -> bool:
-        """Whether a list of bare plurals does what follows: "with cars and dogs running"."""
-        is_bare = all(one.is_plural and not one.article for one in groups)
-        return is_bare and bool(self._token().verbs("ing"))
-
-    def _is_like(self, preposition: Token) -> bool:
-        """Whether a preposition is here like the one before, or one with a pronoun."""
-        token, positions = self._token(), word_set("things", "positions") - {"between"}
-        kinds = preposition.relations | token.relations
-        is_back = preposition.text != "with" and self._token(1).has("pronouns")
-        is_both = token.has("relation") and preposition.has("relation")
-        return is_both and (token.text == preposition.text or is_back or kinds <= positions)

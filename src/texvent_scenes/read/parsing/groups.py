@@ -9,7 +9,7 @@ from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.read.parsing.lexicon import NounSense, word_set, word_table
 from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token, token_at
 
-HEADS = ("noun", "place", "effect", "pose", "scene")
+_HEADS = ("noun", "place", "effect", "pose", "scene")
 """Senses that a noun group may end with."""
 MODIFIERS = ("field", "scene", "adverb")
 """Senses of the words before a head."""
@@ -64,14 +64,8 @@ class Group:
     def picks(self) -> str:
         """As "one" or "two" of several things that are named, "other", "leader", or ""."""
         words = [one.text for one in self.unknown if self.head is None]
-        known = (
-            "other",
-            "others",
-            "one",
-            "another",
-            *ordinals(),
-            *sorted(word_set("things", "members")),
-        )
+        members = sorted(word_set("things", "members"))
+        known = ("other", "others", "one", "another", *ordinals(), *members)
         if self.count > 1 and not {"other", "others"} & {*words}:
             is_part = self.of is not None and len(words) == 1 and words != ["both"]
             return words[0] if is_part else ""
@@ -196,7 +190,7 @@ class GroupReader:
                 unknown.append(token)
                 if article in ("a", "an"):  # "a six axis arm" is one
                     modifiers = [one for one in modifiers if not _counts(one)]
-            elif not token.has(*HEADS) or self._stands_before(token):
+            elif not token.has(*_HEADS) or self._stands_before(token):
                 modifiers.append(token)
             elif self._is_compound(article, first):
                 unknown.append(token)
@@ -244,14 +238,14 @@ class GroupReader:
             return True  # "blue lights at night"
         if token is NO_TOKEN or token.is_sign or token.text == "and" or token.has(*_STANDPOINTS):
             return True
-        if token.has(*HEADS, *MODIFIERS):
+        if token.has(*_HEADS, *MODIFIERS):
             return token.has("relation") and self._at > first
         if token.is_unknown and self._at > first and self._has_object():
             return True  # "a player in white serves the ball"
         before = self._token(-1)
         if self._at > first and before.is_unknown and is_plural_form(before.text):
             return True  # "in blue kimonos wooden boxes": the colour is not that of the boxes
-        is_many = before.text.endswith("s") or not self._token(1).has(*HEADS)
+        is_many = before.text.endswith("s") or not self._token(1).has(*_HEADS)
         if before.is_unknown and is_many and token.text.endswith("ing"):
             return self._at > first  # "travellers pulling", "a white line spinning at 3 Hz"
         is_state = token.text in word_table("states") and self._at == first
@@ -275,7 +269,7 @@ class GroupReader:
         after = self._token(ahead)
         is_before = token.has(*MODIFIERS) and not after.has("relation")
         is_before &= not after.text.startswith(_PREPOSITIONS)  # "in the rain at night"
-        return is_before and after.has(*HEADS, "field")
+        return is_before and after.has(*_HEADS, "field")
 
     def _is_compound(self, article: str, first: int) -> bool:
         """Whether the word that follows is the head: "dog house", "a square red box"."""
@@ -297,8 +291,8 @@ class GroupReader:
         led = token_at(self._tokens, first - 1)
         is_lone = is_inert and not (article or any(one.is_plural for one in nouns))
         is_lone &= led.has("verb", "relation") and not led.has("noun")  # "wears oven gloves"
-        led = self._token(1)
-        is_lone |= self._has_verb or (bool(led.verbs("s")) and not led.has("noun"))  # "guards hovers"
+        led = self._token(1)  # "with guards hovers"
+        is_lone |= self._has_verb or (bool(led.verbs("s")) and not led.has("noun"))
         is_verb = after.text.endswith(("ing", "ed", "ly", *(() if is_lone else ("s",))))
         is_verb |= after.has("other")
         is_word = after.is_unknown or (is_named and is_inert)  # "a chair lift"
@@ -325,3 +319,22 @@ class GroupReader:
         token, after = self._token(ahead), self._token(ahead + 1)
         is_pronoun = after.has("pronouns") and token.is_unknown
         return token.text.endswith("s") and (after.has("articles") or is_pronoun)
+
+    def _names_purpose(self) -> bool:
+        """Whether "to" leads to what is done to something: "leaps to catch a frisbee"."""
+        done, is_so = self._token(1), self._token(-1).text not in word_set("things", "unfulfilled")
+        is_so &= bool(done.verbs("base")) and not done.has(*_HEADS, *MODIFIERS)
+        return is_so and (self._starts_group(2) or self._token(2).has("pronouns"))
+
+    def _share_verb(self, groups: Sequence[Group]) -> bool:
+        """Whether a list of bare plurals does what follows: "with cars and dogs running"."""
+        is_bare = all(one.is_plural and not one.article for one in groups)
+        return is_bare and bool(self._token().verbs("ing"))
+
+    def _is_like(self, preposition: Token) -> bool:
+        """Whether a preposition is here like the one before, or one with a pronoun."""
+        token, positions = self._token(), word_set("things", "positions") - {"between"}
+        kinds = preposition.relations | token.relations
+        is_back = preposition.text != "with" and self._token(1).has("pronouns")
+        is_both = token.has("relation") and preposition.has("relation")
+        return is_both and (token.text == preposition.text or is_back or kinds <= positions)

@@ -292,11 +292,8 @@ def _list_acting(row: Mapping[str, Any]) -> Iterator[str]:
         for words, form in list_forms(phrase):
             yield f"{noun} {words}"
             if form == "ing":
-                yield from (
-                    f"{words.split()[0]} {noun}",
-                    f"{noun} is {words}",
-                    f"{noun} are {words}",
-                )
+                said = f"{words.split()[0]} {noun}", f"{noun} is {words}", f"{noun} are {words}"
+                yield from said
 
 
 def _walk(table: Mapping[str, Any], path: tuple[str, ...] = ()) -> Iterator[tuple[Any, list[str]]]:

@@ -79,11 +79,8 @@ def _see_as_operator(token: Token, tokens: Sequence[Token]) -> Token:
     """The token as the camera, if it flies that: "aerial view of a coast, the drone pulls back"."""
     before, after = token_at(tokens, token.at - 1), tokens[token.at + 1 : token.at + 1 + _NEAR]
     is_flown = token.text in word_set("things", "flown") and token.has("noun")
-    if (
-        not is_flown
-        or before.text != "the"
-        or any(one.text == token.text for one in tokens[: token.at])
-    ):
+    is_first = token.text not in [one.text for one in tokens[: token.at]]
+    if not (is_flown and is_first and before.text == "the"):
         return token
     is_aerial = any(
         one.value == ("camera", "view", "aerial") for each in tokens for one in each.all("scene")

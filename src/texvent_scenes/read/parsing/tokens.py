@@ -34,8 +34,6 @@ from texvent_scenes.words import find_literals
 
 _OF_PARTICLES = ("plain", "lamp", "machine")
 """Subjects of what is no verb with a particle before a noun: "comes down the road"."""
-SHOTS = ("shot", "footage")
-"""Ends of words of what a camera takes, of which is said what the camera does."""
 _NEAR = 4
 """Words after a light verb among which what is done is named."""
 MOST_WORDS = 1000
@@ -316,8 +314,10 @@ def _is_shade(words: Sequence[str], end: int, lexicon: Lexicon) -> bool:
 
 
 def _is_doing(words: Sequence[str], end: int, lexicon: Lexicon) -> bool:
-    """Whether the last word of a phrase does what follows: "in the snow falling on a street"."""
+    """Whether a phrase's last word does what follows, or leads to it: "tilts up to follow"."""
     both = tuple(one.casefold() for one in words[end : end + 2])
+    if len(both) == 2 and both[0] == "to":
+        return {one.form for one in lexicon.get(both[1:], ())} == {"base"}
     is_act = len(both) == 2 and both[1].endswith("ing")
     return is_act and any(one.kind in ("scene", "effect") for one in lexicon.get(both, ()))
 
@@ -364,7 +364,7 @@ def _without_chance(
     is_many = bool(before) and before[-1].text.endswith(" of")  # "a stack of cardboard boxes"
     is_single = any(one.text in ("a", "an") for one in before[-2:]) and not is_many
     is_of_camera = not before or before[-1].is_sign or any(
-        one.has("camera") or one.text.endswith(SHOTS) for one in before[-9:])  # fmt: skip
+        one.has("camera") or one.text.endswith("shot") for one in before[-9:])  # fmt: skip
     return tuple(
         one for one in senses
         if (one.kind != "noun" or not (is_verb or is_placed or (is_single and one.value.is_plural)))
