@@ -17,11 +17,12 @@ from texvent_scenes.models.activities import (
 from texvent_scenes.models.anchors import Support, find_room, find_support
 from texvent_scenes.models.people.person import SEAT
 from texvent_scenes.models.protocol import Pose
-from texvent_scenes.models.shapes import bounds
+from texvent_scenes.models.shapes import bounds, moved, shift, turn_about
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.data import WAYS
 from texvent_scenes.staging.actors import is_centred, size_of
+from texvent_scenes.staging.interactions.holding import hides_riders
 from texvent_scenes.staging.placement.along_surface import (
     carry_along,
     go_down,
@@ -73,6 +74,8 @@ _FRONT_M = 0.40
 """From the front edge of a seat to the hips."""
 _SEATED_M = 0.28
 """From the edge of a table to the middle of who sits at it."""
+_ROOF = 1.5
+"""Height near which the roof of a closed vehicle is, in heights of that."""
 _HUNG = 0.58
 """Height of the middle of what hangs on a wall, as a share of the wall's."""
 _OFF_MIDDLE, _FACE_GAP_M = 0.25, 0.01
@@ -298,11 +301,24 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
         stop_at_edge(group, target, support)
     _turn_along(group, target, support)
     group.fit()
-    x, y = support.middle
-    if len(group.models) == 1 and not group.plan.is_path:
-        turn = group.plan.yaw - target.plan.yaw
-        x, y = find_room(group.models[0], turn, target.models[0], support)
+    x, y = support.middle if group.plan.is_path else _find_room(group, target, support)
+    if (x, y) != support.middle and hides_riders(target.noun):
+        support = find_support(target.models[0], _ROOF * target.models[0].height)
+        x, y = support.middle  # a car's roof, not its bonnet
     return target.to_world(x, y, support.height + group.origin_m)
+
+
+def _find_room(group: ObjectGroup, target: ObjectGroup, support: Support) -> tuple[float, float]:
+    """Place of a group on a support, before what rises there as the camera sees it, m."""
+    back = turn_about("z", -target.plan.yaw)
+    rest, turn = Pose(0.0, 0.0, 0.0, "stand"), turn_about("z", group.plan.yaw)
+    parts = [
+        each
+        for model, offset in zip(group.models, group.offsets, strict=True)
+        for each in moved(moved(moved(model.parts(rest), turn), shift(*offset)), back)
+    ]
+    x, y, _ = back[:, :3] @ -_AWAY
+    return find_room(parts, target.models[0], support, (float(x), float(y)))
 
 
 def _turn_along(group: ObjectGroup, target: ObjectGroup, support: Support) -> None:
