@@ -292,6 +292,9 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
         go_down(group, target)
         return target.to_world(0.0, 0.0, group.origin_m)
     support = find_support(target.models[0])
+    is_free = group.plan.is_path or not hides_riders(target.noun)
+    if not is_free and _find_room(group, target, support, 1) != support.middle:
+        support = find_support(target.models[0], _ROOF * target.models[0].height)
     line_up(group, target, support, neighbours)
     if [one.kind for one in group.scene_object.motions] == ["jump", "stand"]:
         leap_up(group, target, support)
@@ -301,22 +304,22 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
         stop_at_edge(group, target, support)
     _turn_along(group, target, support)
     group.fit()
-    x, y = support.middle if group.plan.is_path else _find_room(group, target, support)
-    if (x, y) != support.middle and hides_riders(target.noun):
-        support = find_support(target.models[0], _ROOF * target.models[0].height)
-        x, y = support.middle  # a car's roof, not its bonnet
+    count = len(group.models)
+    x, y = support.middle if group.plan.is_path else _find_room(group, target, support, count)
     return target.to_world(x, y, support.height + group.origin_m)
 
 
-def _find_room(group: ObjectGroup, target: ObjectGroup, support: Support) -> tuple[float, float]:
-    """Place of a group on a support, before what rises there as the camera sees it, m."""
+def _find_room(
+    group: ObjectGroup, target: ObjectGroup, support: Support, count: int
+) -> tuple[float, float]:
+    """Place of the first of a group on a support, before what rises there for the camera, m."""
     back = turn_about("z", -target.plan.yaw)
     rest, turn = Pose(0.0, 0.0, 0.0, "stand"), turn_about("z", group.plan.yaw)
+    offsets = group.offsets if count > 1 else [(0.0, 0.0, 0.0)]
     parts = [
-        each
-        for model, offset in zip(group.models, group.offsets, strict=True)
+        each for model, offset in zip(group.models, offsets, strict=False)
         for each in moved(moved(moved(model.parts(rest), turn), shift(*offset)), back)
-    ]
+    ]  # fmt: skip
     x, y, _ = back[:, :3] @ -_AWAY
     return find_room(parts, target.models[0], support, (float(x), float(y)))
 
