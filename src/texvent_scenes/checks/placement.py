@@ -33,9 +33,10 @@ from texvent_scenes.staging.surroundings.environment import lies_ashore
 from texvent_scenes.staging.surroundings.road_line import RoadLine
 from texvent_scenes.staging.surroundings.threads import is_still
 
-_FREE = frozenset({"fly", "glide", "hover", "float", "rise", "sink", "fall", "jump", "bounce", "swing",
-                   "throw", "orbit", "swim", "surf", "sail", "paddle", "row", "hang", "topple",
-                   "dive", "spin", "sway", "climb", "grow", "shrink", "plunge"})  # fmt: skip
+_FREE = frozenset({"fly", "glide", "hover", "float", "rise", "sink", "fall", "jump", "bounce",
+                   "swing", "throw", "orbit", "swim", "surf", "sail", "paddle", "row", "hang",
+                   "topple", "dive", "spin", "sway", "climb", "grow", "shrink",
+                   "plunge"})  # fmt: skip
 """Motions that need no support."""
 _AIRBORNE = frozenset({"fly", "glide", "hover", "float", "rise", "sink", "orbit", "dive"})
 """Motions in which what has a fixed place on the ground hangs in the air."""

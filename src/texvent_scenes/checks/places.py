@@ -80,6 +80,11 @@ def find_unseen_place(
         if said.clouds:
             yield Violation("clouds", "", "clouds: the sky is out of view")
         yield Violation("place", "sky", "" if said.clouds else "the sky: it is out of view")
+    for one in scene.actors if scene.place.ground is not Ground.NONE else ():
+        tops = [one.corners(time_s)[:, 2].max() for time_s in times]
+        is_below = all(top < camera.position[2] for top, camera in zip(tops, cameras, strict=True))
+        if is_below and one.noun.name in nouns_with("of the sky"):
+            yield Violation("noun", one.noun.name, f"the {one.name}: it is below the horizon")
     is_shore = scene.place.has_shore and bool(said.name)
     if is_shore and not any(_has_shore(scene, *one) for one in instants):
         kind = "water" if _has_water_name(scene) else "land"

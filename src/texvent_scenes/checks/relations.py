@@ -22,8 +22,8 @@ from texvent_scenes.spec.scene import Motion, SceneObject
 from texvent_scenes.staging.placement.zones import are_driven, hangs_on, is_before_face
 from texvent_scenes.staging.tracks.phases import PATH_KINDS, STEERED, ends_at_rest
 
-_DIRECTED = frozenset({"move", "walk", "run", "drive", "fly", "glide", "swim", "sail", "paddle", "slide",
-                       "roll", "crawl", "rise", "sink", "hover", "float", "bounce", "jump",
+_DIRECTED = frozenset({"move", "walk", "run", "drive", "fly", "glide", "swim", "sail", "paddle",
+                       "slide", "roll", "crawl", "rise", "sink", "hover", "float", "bounce", "jump",
                        "fall"})  # fmt: skip
 """Motions whose direction is that of the displacement."""
 _ON_GROUND = frozenset({"walk", "run", "crawl", "drive", "roll", "slide"})

@@ -10,6 +10,7 @@ import numpy as np
 from texvent_scenes.checks.relations import Violation
 from texvent_scenes.checks.staged_clip import StagedClip
 from texvent_scenes.description import Claim, SceneDescription, label_of
+from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.rendered_scene import Float64Array, Ground
 from texvent_scenes.staging.compose import ComposedScene
 from texvent_scenes.staging.surroundings.road_line import RoadLine
@@ -79,7 +80,7 @@ def _behind(staged: StagedClip, middle: Float64Array) -> Float64Array:
 def find_wet_and_dry(
     scene: ComposedScene, description: SceneDescription, duration_s: float
 ) -> Iterator[Violation]:
-    """Swims on land, and ways on foot in water of who is said to do both.
+    """Swims on land, ways on foot in water of who is said to do both, and bridges over no water.
 
     Args:
         scene: the staged scene.
@@ -101,3 +102,7 @@ def find_wet_and_dry(
                 yield Violation("motion", kind, f"the {name}'s {kind}: it is on land")
             elif kind in _ON_FOOT and min(wet) > _HALF:
                 yield Violation("motion", kind, f"the {name}'s {kind}: it is in the water")
+    bridges = [one for one in scene.actors if one.noun.name in nouns_with("has approaches")]
+    for one in bridges if scene.place.has_shore else ():
+        if wet_share(scene, one.middle(0.0)[None, :2]) == 0.0:
+            yield Violation("noun", one.noun.name, f"the {one.name}: no water is under its middle")

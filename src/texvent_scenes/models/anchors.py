@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent_scenes.models.protocol import Model, ModelPart, Pose
-from texvent_scenes.models.shapes import Affine, Point, bounds, moved, turn_about
+from texvent_scenes.models.shapes import Affine, Point, bounds
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
 from texvent_scenes.rendered_scene import Shape
 
@@ -76,6 +76,8 @@ class Support:
         return 0.5 * (self.low[0] + self.high[0]), 0.5 * (self.low[1] + self.high[1])
 
 
+_AHEAD = 0.5
+"""Worth of room on the preferred side, as a share of its distance."""
 _SEAT_BAND = (0.5, 1.7)
 """Heights that count as near a wanted one, in multiples of it."""
 
@@ -120,17 +122,19 @@ def find_support(model: Model, near_m: float | None = None) -> Support:
     )
 
 
-def find_room(body: Model, turn: float, under: Model, support: Support) -> tuple[float, float]:
-    """Place on a support nearest to its middle where a body goes into nothing that rises there.
+def find_room(
+    parts: Sequence[ModelPart], under: Model, support: Support, ahead: tuple[float, float]
+) -> tuple[float, float]:
+    """Place on a support, near its middle, where bodies go into nothing that rises there.
 
     Args:
-        body: the body, at rest.
-        turn: its heading with respect to that of what is under it, rad.
+        parts: the bodies, at rest, about the place in the axes of `under`.
         under: the model of the support.
         support: its level surface.
+        ahead: direction in which there is room rather than in others, in these axes.
 
     Returns:
-        x and y in the coordinates of `under`, m; the middle where no place is free.
+        x and y in the coordinates of `under`, m; the middle where it is free, or no place is.
     """
     rising = _boxes(under.parts(_REST))
     edge = np.array([support.low, support.high])
@@ -138,7 +142,7 @@ def find_room(body: Model, turn: float, under: Model, support: Support) -> tuple
     rising = rising[inside.all(axis=1) & (rising[:, 1, 2] > support.height + _LEVEL_M)]
     if not len(rising):
         return support.middle
-    own = _boxes(moved(body.parts(_REST), turn_about("z", turn)))
+    own = _boxes(parts)
     own[..., 2] += support.height + 0.5 * _LEVEL_M - own[..., 2].min()
     foot = own[own[:, 0, 2] < own[:, 0, 2].min() + _LEVEL_M][..., :2]
     room = edge[0] - foot[:, 0].min(axis=0), edge[1] - foot[:, 1].max(axis=0)
@@ -147,8 +151,10 @@ def find_room(body: Model, turn: float, under: Model, support: Support) -> tuple
     spots = np.vstack([support.middle, spots])
     lows, highs = (np.pad(spots, ((0, 0), (0, 1)))[:, None] + own[None, :, end] for end in (0, 1))
     meets = (lows[:, :, None] < rising[:, 1]) & (highs[:, :, None] > rising[:, 0])
-    away_m = np.linalg.norm(spots - support.middle, axis=1)
-    best = int(np.argmin(np.where(meets.all(axis=-1).any(axis=(1, 2)), np.inf, away_m)))
+    is_taken = meets.all(axis=-1).any(axis=(1, 2))
+    off = spots - support.middle
+    worth = np.linalg.norm(off, axis=1) - _AHEAD * off @ ahead
+    best = int(np.argmin(np.where(is_taken, np.inf, worth))) if is_taken[0] else 0
     return float(spots[best, 0]), float(spots[best, 1])
 
 

@@ -118,14 +118,10 @@ def test_what_opens_and_closes_is_closed_in_the_clip(duration_s, is_shown):
 
 @pytest.mark.parametrize(
     ("text", "gait"),
-    [
-        ("a horse trots on grass", "trot"),
-        ("a dog trots along a road", "trot"),
-        ("a deer runs at 4 m/s", "trot"),
-        ("a horse gallops on grass", "run"),
-        ("a dog runs along a road", "run"),
-    ],
-)
+    [("a horse trots on grass", "trot"), ("a dog trots along a road", "trot"),
+     ("a deer runs at 4 m/s", "trot"), ("a horse gallops on grass", "run"),
+     ("a dog runs along a road", "run")],
+)  # fmt: skip
 def test_four_footed_animals_gallop_above_the_speed_of_a_trot(text, gait):
     nouns = list_nouns()
     scene = understand(text, nouns)

@@ -7,12 +7,7 @@ import pytest
 from tests.scenes.every_row import for_every
 
 from texvent.errors import FileFormatError
-from texvent_scenes.models.activities import (
-    ANIMAL_ACTIVITIES,
-    MOUTH_ACTIVITIES,
-    TRAVELLING,
-    limbs_of,
-)
+from texvent_scenes.models.activities import ANIMAL_ACTIVITIES, MOUTH_ACTIVITIES, limbs_of
 from texvent_scenes.models.joints import Instant, read_cycle
 from texvent_scenes.models.materials import BLACK
 from texvent_scenes.models.nouns import FAMILIES, NOUNS
@@ -86,9 +81,9 @@ OF_THINGS = ("open", "close", "closed", "show", "turn")
 def test_an_act_moves_parts_smoothly_and_not_into_the_ground(noun):
     model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
     size, ground = model.height, bounds(parts_at(noun, "stand", 0.0))[0][2]
-    acts = NOUNS[noun].acts - TRAVELLING
+    acts = NOUNS[noun].acts - {"glide"}
     of_things = {one for one in ANIMAL_ACTIVITIES if {*one.split()} & {*OF_THINGS}}
-    on_legs = frozenset(ANIMAL_ACTIVITIES) - TRAVELLING - of_things - {"clap"}  # which only flippers do
+    on_legs = frozenset(ANIMAL_ACTIVITIES) - of_things - {"clap", "glide"}  # of other limbs
     assert acts in (on_legs, MOUTH_ACTIVITIES, MOUTH_ACTIVITIES | {"dance in place", "shake off"})
     for act in acts:
         start, moved = parts_at(noun, act, 0.0), 0.0
@@ -227,3 +222,27 @@ def test_only_flippers_clap_and_only_who_turns_its_head_looks_around():
 def test_limbs_of_acts_with_keys_are_needed_too():
     assert {"left_paw_ahead", "right_paw_ahead"} <= limbs_of("stretch")
     assert "stretch" not in NOUNS["parrot"].acts
+
+
+@for_every(sorted(name for name, one in NOUNS.items() if "glide" in one.acts))
+def test_who_glides_keeps_its_wings_spread_and_still(noun):
+    model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
+    shapes = {(act, at): np.array([one.to_body for one in model.parts(Pose(at, 0.0, 5.0, act))])
+              for act in ("glide", "fly") for at in (0.2, 0.27)}  # fmt: skip
+    assert np.allclose(shapes["glide", 0.2], shapes["glide", 0.27])
+    assert not np.allclose(shapes["fly", 0.2], shapes["fly", 0.27])
+    wide_m = np.ptp(bounds(model.parts(Pose(0.2, 0.0, 5.0, "glide"))), axis=0)[1]
+    assert wide_m > 0.9 * model.width
+
+
+@for_every(range(6))
+def test_brick_walls_are_red_and_white_walls_are_white(seed):
+    rest = Pose(0.0, 0.0, 0.0, "stand")
+    red, _, blue = (
+        NOUNS["brick wall"].build(colour=None, scale=1.0, seed=seed).parts(rest)[0].colour
+    )
+    assert red > 2.5 * blue
+    for noun in ("wall", "inner wall", "plain wall"):
+        parts = NOUNS[noun].build(colour=(0.9, 0.9, 0.9), scale=1.0, seed=seed).parts(rest)
+        size = [abs(np.linalg.det(one.to_body[:, :3])) for one in parts]
+        assert np.average([min(one.colour) for one in parts], weights=size) > 0.8

@@ -22,14 +22,9 @@ ALL = list(NOUNS.values())
 POSES = [
     Pose(time_s, distance_m, speed, activity)
     for time_s, distance_m, speed, activity in (
-        (0.0, 0.0, 0.0, "stand"),
-        (0.31, 0.17, 1.3, "move"),
-        (1.77, 3.9, 2.0, "move"),
-        (2.9, 11.3, 4.0, "run"),
-        (0.5, 1.0, 0.0, "sit"),
-        (6.2, 40.1, 1.0, "move"),
-    )
-]
+        (0.0, 0.0, 0.0, "stand"), (0.31, 0.17, 1.3, "move"), (1.77, 3.9, 2.0, "move"),
+        (2.9, 11.3, 4.0, "run"), (0.5, 1.0, 0.0, "sit"), (6.2, 40.1, 1.0, "move"))
+]  # fmt: skip
 
 
 MOUNDS = {"dune mound"}

@@ -86,18 +86,8 @@ def strategy(hint: Any) -> st.SearchStrategy[Any]:
             return st.sampled_from(sorted(PALETTES[palette])) | st.just("#0a80ff")
 
 
-IDS = (
-    "id",
-    "model",
-    "to",
-    "source",
-    "target",
-    "distance_m",
-    "position_m",
-    "look_at_m",
-    "crossing_m",
-    "road_m",
-)
+IDS = ("id", "model", "to", "source", "target", "distance_m", "position_m", "look_at_m",
+       "crossing_m", "road_m")  # fmt: skip
 
 
 @st.composite

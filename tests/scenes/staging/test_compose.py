@@ -5,12 +5,14 @@ from functools import lru_cache
 
 import numpy as np
 import pytest
+from tests.scenes.staged import stage_text
 
 from texvent.camera import PosedCamera
 from texvent.sensor import SensorSize
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.materials import in_material
 from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.models.places import PLACES
 from texvent_scenes.models.protocol import Pose
 from texvent_scenes.rendered_scene import Float64Array, Texture
 from texvent_scenes.scene_input import understand
@@ -138,3 +140,11 @@ def test_an_object_is_made_of_what_is_said():
     colours = [part.colour for part in usual.parts(pose)]
     assert [part.colour for part in painted] == colours
     assert in_material(usual, None, None) is usual
+
+
+@pytest.mark.parametrize("place", ["flower field", "sunflower field", "tulip field", "wheat field"])
+def test_a_camera_that_moves_through_a_field_has_its_plants_before_it(place):
+    _, scene = stage_text(f"the camera moves through a {place}")
+    crop = max(PLACES[place].scenery, key=lambda one: one.count).noun
+    items = [one for one in scene.scenery if one.rule.noun == crop]
+    assert sum(one.share_of(scene.camera(0.0)) > 0.0 for one in items) >= 8

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from tests.scenes.every_row import for_every
-from tests.scenes.staged import SIZE, stage, thing
+from tests.scenes.staged import SIZE, stage, stage_text, thing
 
 from texvent.sensor import SensorSize
 from texvent.transfer import decode_srgb
@@ -263,3 +263,11 @@ def test_every_place_is_darker_at_night_than_by_day(place):
 @pytest.mark.parametrize("kind", ["night", "moonlight", "lamp", "dusk", "overcast"])
 def test_in_space_the_sun_shines_at_any_time(name, kind):
     assert choose_lighting(PLACES[name], Light(kind)) == choose_lighting(PLACES[name], Light(None))
+
+
+@pytest.mark.parametrize("text", ["{}snow falls on a street", "{}snow in a park"])
+def test_heavy_snow_hides_the_sky_and_what_is_far(text):
+    usual, thick = (stage_text(text.format(one))[1].animated_environment.at(0.0)
+                    for one in ("", "heavy "))  # fmt: skip
+    assert thick.fog_distance < 0.4 * usual.fog_distance
+    assert np.ptp(thick.sky_top) < 1e-6 < np.ptp(usual.sky_top)

@@ -1,15 +1,20 @@
 """Walls, runways, lanes and falls: where things come to rest, and on which side."""
 
+import itertools
+
 import numpy as np
 import pytest
-from tests.scenes.staged import DURATION_S, SIZE, box, moved, stage_text
+from tests.scenes.every_row import for_every
+from tests.scenes.staged import DURATION_S, SIZE, box, moved, stage, stage_text, thing
 from tests.scenes.staging.test_containers import lost_relations
 from tests.scenes.test_short_prompts import staged
 
 from texvent_scenes.checks.in_view import find_unseen
-from texvent_scenes.checks.water import wet_share
+from texvent_scenes.checks.water import find_wet_and_dry, wet_share
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.places import PLACES
+from texvent_scenes.models.shapes import bounds, compose
+from texvent_scenes.models.shapes import moved as moved_by
 from texvent_scenes.models.tables import nouns_with, trait_values
 
 
@@ -257,3 +262,44 @@ def test_twins_look_the_same(text):
     )  # fmt: skip
     assert others
     assert all(one == first for one in others)
+
+
+@for_every(itertools.product(("drone", "pigeon", "cat", "helicopter"), ("building", "car", "taxi"),
+                             (1, 2), range(3)))  # fmt: skip
+def test_what_is_on_a_roof_goes_into_nothing_that_rises_there(row):
+    who, what, count, seed = row
+    count = 1 if who == "helicopter" else count
+    *own, under = stage(thing(who, ("stand",), count=count), thing(what, ("stand",)),
+                        relations=(("on", 0, 1),), seed=seed).actors  # fmt: skip
+    rest = under.place(0.0)
+    back = np.linalg.inv(np.vstack([rest.to_world, (0.0, 0.0, 0.0, 1.0)]))[:3]
+    parts = np.array([bounds([one]) for one in rest.parts])
+    for placed in (one.place(0.0) for one in own if who != "helicopter" or what == "building"):
+        for one in moved_by(placed.parts, compose(back, placed.to_world)):
+            low, high = bounds([one])
+            slim = 0.25 * (high - low)
+            assert not ((parts[:, 0] < high - slim) & (parts[:, 1] > low + slim)).all(axis=1).any()
+
+
+@pytest.mark.parametrize("noun", sorted(nouns_with("has approaches")))
+@pytest.mark.parametrize(
+    "text",
+    ["a {} over a river", "a car drives over a {} over a river", "a river with a {} and a boat"],
+)
+def test_a_river_runs_under_a_bridge_or_it_is_told(text, noun):
+    said, scene = stage_text(text.format(noun))
+    bridge = next(one for one in scene.actors if one.noun.name == noun)
+    is_over = wet_share(scene, bridge.middle(0.0)[None, :2]) == 1.0
+    assert is_over == (noun not in [one.value for one in find_wet_and_dry(scene, said, DURATION_S)])
+    assert is_over or "boat" in text
+
+
+@for_every(itertools.product(("man", "boy"), ("water", "coffee", "juice"), ("glass", "mug", "cup")))
+def test_what_is_poured_ends_in_the_vessel(row):
+    person, vessel = stage_text("a {} pours {} into a {}".format(*row))[1].actors
+    (jet,) = (one for one in person.props if one.anchor == "hands")
+    for time_s in (0.1, 0.9, 1.7):
+        low, high = bounds(moved_by(jet.draw(time_s), person.anchor("hands", time_s)))
+        top_m, middle = box(vessel, time_s)[1][2], vessel.middle(time_s)
+        assert np.abs(0.5 * (low + high) - middle)[:2].max() < 0.5 * vessel.model.width
+        assert low[2] < top_m < high[2]

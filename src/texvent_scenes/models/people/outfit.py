@@ -276,12 +276,17 @@ HOLDS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
 
 def list_props(activity: str, size: float = 1.0) -> tuple[Prop, ...]:
     """Props of an activity; `size` is that of the body, relative to an adult."""
-    return tuple(_scaled(prop, size) for prop in PROPS.get(activity, ()))
+    props = PROPS.get(activity, ())
+    is_between = len(props) > 1 and any(one.anchor == "hands" for one in props)
+    return tuple(_scaled(one, size, is_between=is_between) for one in props)
 
 
-def _scaled(prop: Prop, size: float) -> Prop:
-    """Prop at the size of the body if the body stands at it or wears it, but not in a hand."""
-    if size == 1.0 or prop.anchor not in ("ground", "torso"):
+def _scaled(prop: Prop, size: float, *, is_between: bool) -> Prop:
+    """Prop at the size of the body if the body stands at it or wears it, but not in a hand.
+
+    There too if something is between the hands, as what is poured from one into the other.
+    """
+    if size == 1.0 or not (is_between or prop.anchor in ("ground", "torso")):
         return prop
 
     def scale(draw: Draw) -> Draw:

@@ -120,7 +120,7 @@ def hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
         held = held_at(subject, "mouth", offset, swing=_swing(target, offset))
         return subject, carried(target, held, subject)
     doing = subject.track.at(0.0).activity
-    props = list_props(doing)
+    props = list_props(doing, size_of(subject.model))
     same = (one for one in props if target.noun.name in one.nouns and one.anchor in _HANDS)
     prop = next(same, None)
     named = (style for style in _STYLES if target.noun.name in nouns_with(style))

@@ -17,11 +17,12 @@ from texvent_scenes.models.activities import (
 from texvent_scenes.models.anchors import Support, find_room, find_support
 from texvent_scenes.models.people.person import SEAT
 from texvent_scenes.models.protocol import Pose
-from texvent_scenes.models.shapes import bounds
+from texvent_scenes.models.shapes import bounds, moved, shift, turn_about
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.data import WAYS
 from texvent_scenes.staging.actors import is_centred, size_of
+from texvent_scenes.staging.interactions.holding import hides_riders
 from texvent_scenes.staging.placement.along_surface import (
     carry_along,
     go_down,
@@ -73,6 +74,8 @@ _FRONT_M = 0.40
 """From the front edge of a seat to the hips."""
 _SEATED_M = 0.28
 """From the edge of a table to the middle of who sits at it."""
+_ROOF = 1.5
+"""Height near which the roof of a closed vehicle is, in heights of that."""
 _HUNG = 0.58
 """Height of the middle of what hangs on a wall, as a share of the wall's."""
 _OFF_MIDDLE, _FACE_GAP_M = 0.25, 0.01
@@ -289,6 +292,9 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
         go_down(group, target)
         return target.to_world(0.0, 0.0, group.origin_m)
     support = find_support(target.models[0])
+    is_free = group.plan.is_path or not hides_riders(target.noun)
+    if not is_free and _find_room(group, target, support, 1) != support.middle:
+        support = find_support(target.models[0], _ROOF * target.models[0].height)
     line_up(group, target, support, neighbours)
     if [one.kind for one in group.scene_object.motions] == ["jump", "stand"]:
         leap_up(group, target, support)
@@ -298,11 +304,24 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
         stop_at_edge(group, target, support)
     _turn_along(group, target, support)
     group.fit()
-    x, y = support.middle
-    if len(group.models) == 1 and not group.plan.is_path:
-        turn = group.plan.yaw - target.plan.yaw
-        x, y = find_room(group.models[0], turn, target.models[0], support)
+    count = len(group.models)
+    x, y = support.middle if group.plan.is_path else _find_room(group, target, support, count)
     return target.to_world(x, y, support.height + group.origin_m)
+
+
+def _find_room(
+    group: ObjectGroup, target: ObjectGroup, support: Support, count: int
+) -> tuple[float, float]:
+    """Place of the first of a group on a support, before what rises there for the camera, m."""
+    back = turn_about("z", -target.plan.yaw)
+    rest, turn = Pose(0.0, 0.0, 0.0, "stand"), turn_about("z", group.plan.yaw)
+    offsets = group.offsets if count > 1 else [(0.0, 0.0, 0.0)]
+    parts = [
+        each for model, offset in zip(group.models, offsets, strict=False)
+        for each in moved(moved(moved(model.parts(rest), turn), shift(*offset)), back)
+    ]  # fmt: skip
+    x, y, _ = back[:, :3] @ -_AWAY
+    return find_room(parts, target.models[0], support, (float(x), float(y)))
 
 
 def _turn_along(group: ObjectGroup, target: ObjectGroup, support: Support) -> None:

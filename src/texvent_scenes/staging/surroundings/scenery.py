@@ -38,6 +38,9 @@ _ATTEMPTS = 40
 _SPACING_M, _INDOORS_M, _ASIDE_M = 12.0, 3.0, (0.8, 9.0)
 """Along a route: usually from one to the next, the same in a room, and least and most from the
 free strip."""
+_CROP, _FIELD_M, _CROP_ASIDE_M = 20, 12.0, (0.1, 4.0)
+"""Number of copies from which on a plant makes a field; how far that goes beyond the end of a
+route, and beside it, m."""
 _STEEP_RAD = 0.25
 """Angle below the horizon of an image's upper edge from which on it shows the ground around the
 subject only."""
@@ -152,16 +155,23 @@ class _Scatterer:
                     break
 
     def line_route(self, rules: Sequence[Scenery], travel: TravelPlan) -> None:
-        """Pieces on both sides of a route, from behind its beginning to beyond its end."""
+        """Pieces on both sides of a route, from behind its beginning to beyond its end.
+
+        Of a field of one plant, these are near the route: farther off one would be too small.
+        """
         length = travel.length_m + VIEW_M + _BEFORE_M
         usual_m = _SPACING_M if math.isinf(self._view.room_m) else _INDOORS_M
         spacing = {
             rule: float(trait_value("spacing along a road", rule.noun) or usual_m) for rule in rules
         }
-        stretch = max(1.0, sum(2.0 * length / one for one in spacing.values()) / _MOST_ITEMS)
+        crops = {rule for rule in rules if rule.count >= _CROP}
+        field_m = travel.length_m + _FIELD_M + _BEFORE_M
+        spacing |= {rule: 2.0 * field_m / rule.count for rule in crops}
+        ends_m = {rule: field_m if rule in crops else length for rule in rules}
+        stretch = sum(2.0 * ends_m[one] / step for one, step in spacing.items()) / _MOST_ITEMS
         for rule, side in itertools.product(spacing, (1.0, -1.0)):
-            step = stretch * spacing[rule]
-            for number in range(math.ceil(length / step)):
+            step = max(1.0, stretch) * spacing[rule]
+            for number in range(math.ceil(ends_m[rule] / step)):
                 along = step * (number + float(self._rng.uniform(0.1, 0.9))) - _BEFORE_M
                 item = self._stand_beside(rule, number, travel, along, side)
                 if self._is_free(item):
@@ -172,7 +182,8 @@ class _Scatterer:
     ) -> SceneryItem:
         """At the side of a route, 1 = right, so far along it."""
         model = self._build(rule, copy)
-        near, far = trait_value("distance from a road", rule.noun) or _ASIDE_M
+        usual_m = _CROP_ASIDE_M if rule.count >= _CROP else _ASIDE_M
+        near, far = trait_value("distance from a road", rule.noun) or usual_m
         is_at_kerb = rule.where == "kerb"
         across = model.width if is_at_kerb else max(model.length, model.width)
         aside = travel.clear(side) + 0.5 * across

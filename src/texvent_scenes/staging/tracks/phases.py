@@ -59,7 +59,8 @@ _DRIFT = (
     Term("yaw", 0.12, 0.31, 0.31), Term("roll", 0.05, 0.23, 0.23),
 )  # fmt: skip
 _WAVES = {
-    "fly": _BOB, "glide": _BOB, "sail": _BOB, "paddle": _BOB, "swim": (Term("yaw", 0.08, 0.68, 1.0),),
+    "fly": _BOB, "glide": _BOB, "sail": _BOB, "paddle": _BOB,
+    "swim": (Term("yaw", 0.08, 0.68, 1.0),),
     "hover": _DRIFT, "float": _DRIFT, "sway": (Term("roll", 0.14),), "tilt": (Term("pitch", 0.4),),
 }  # fmt: skip
 """Kind of motion → its oscillations: amplitudes in rad or in the body's size, phases as shares of

@@ -179,13 +179,8 @@ def test_copies_leave_one_by_one_and_go_on_at_their_speed():
         assert 0.0 <= x[0] < 0.5
 
 
-TEXTS = [
-    "a table tennis rally",
-    "two women play badminton",
-    "a woman plays badminton",
-    "a tennis match",
-    "two men play ping pong",
-]
+TEXTS = ["a table tennis rally", "two women play badminton", "a woman plays badminton",
+         "a tennis match", "two men play ping pong"]  # fmt: skip
 
 
 def _cast(text):
