@@ -14,10 +14,11 @@ from typing import Any, Literal
 from texvent_scenes.models.tables import frozen, read_table
 from texvent_scenes.rendered_scene import Colour, Ground, Texture
 
-Where = Literal["around", "walls", "under", "water", "far", "route", "kerb"]
+Where = Literal["around", "walls", "under", "water", "far", "route", "kerb", "bays"]
 """Regions of a place for scenery."""
 _SCALES: Mapping[str, tuple[float, float]] = {
     "walls": (0.95, 1.1), "under": (1.0, 1.0), "kerb": (0.95, 1.05),
+    "bays": (0.95, 1.05),
 }  # fmt: skip
 """Usual multiples of its size, of what does not stand around."""
 
