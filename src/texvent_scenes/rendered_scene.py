@@ -92,6 +92,8 @@ class Texture(IntEnum):
     """Headings, lines of letters and pictures in the second colour: labels, covers, adverts."""
     BOOKS = 54
     """Spines of books that stand side by side, of two hues and many shades."""
+    PAPER = 55
+    """Even but for fibres: paper, cardboard, a studio's backdrop."""
 
 
 FIRST_SURFACE = Texture.VARIATION

@@ -306,8 +306,9 @@ def _ground_colours(place: PlaceModel, said: Place) -> tuple[Colour, Colour]:
     if paint is not None:
         # Grass is darker than paint: blades shade one another.
         depth = 0.45 if place.ground is Ground.GRASS else 0.8
+        lighter = 1.0 if place.is_backdrop else 1.5  # which is even
         colour = mix(_BLACK, paint, depth)
-        second = mix(_BLACK, paint, min(1.5 * depth, 1.0))
+        second = mix(_BLACK, paint, min(lighter * depth, 1.0))
     return colour, second
 
 
