@@ -255,6 +255,8 @@ class Environment:
     """Linear RGB of a room's walls."""
     has_ceiling_panels: bool = False
     """Whether a room's ceiling is hung: panels in a grid of rails, some of them luminous."""
+    is_hall: bool = False
+    """Whether a room's walls have piers, and no windows and pictures."""
     has_highlights: bool = False
     """Whether light above white is kept; else it is compressed, so that none is brighter."""
 

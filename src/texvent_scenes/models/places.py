@@ -66,6 +66,8 @@ class PlaceModel:
     """Half the width of its road or river."""
     corridor_m: float = 0.0
     """Half its width, of a room that is a corridor; 0 = it is none."""
+    hall_m: float = 0.0
+    """Half its least side, of a room that is a hall, m; 0 = it is none."""
     light: str = ""
     """Its daylight, where that is not that of the open air."""
     flight_m: float = 0.0

@@ -245,6 +245,7 @@ def build_environment(
         wall_surface=place.walls,
         wall_colour=place.wall_colour,
         has_ceiling_panels=place.has_ceiling_panels,
+        is_hall=place.hall_m > 0.0,
         road_crossings=np.array(road.crossings, dtype=np.float64).reshape(-1, 3),
     )
     return AnimatedEnvironment(base, description.light.flicker_hz, description.light.wave)
