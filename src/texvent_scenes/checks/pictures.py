@@ -231,7 +231,8 @@ def _tell_seen(scene: ComposedScene, times: Sequence[float]) -> str:
         shares[one.rule.noun] += max(one.share_of(scene.camera(time_s)) for time_s in times)
     seen = [noun for noun, share in shares.most_common(_MOST_NAMED) if share >= _LEAST_TELLING]
     if seen:
-        return f"no more is in view than other places have ({', '.join(list_plurals(one)[0] for one in seen)})"
+        named = ", ".join(list_plurals(one)[0] for one in seen)
+        return f"no more is in view than other places have ({named})"
     return f"only {'walls and the floor are' if scene.place.is_room else 'the ground is'} in view"
 
 

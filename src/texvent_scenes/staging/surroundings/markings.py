@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from texvent_scenes.models.nouns import NOUNS, VARIANTS
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor, size_of
@@ -25,8 +26,8 @@ _WIDTHS = (0.9, 1.4)
 """Least and greatest width of a cell that is fitted to what stands in it, in usual ones."""
 _AISLE_M, _OUT_M = 3.0, 0.2
 """Half the width of the way between bays; way from which on a body goes out of its bay, m."""
-_STEP_M = 0.05
-"""Step of widths of bays that are tried, m."""
+_STEP_M, _POINTS = 0.05, 25
+"""Step of widths of bays that are tried, m; points to a side at which a body is looked at."""
 
 
 class Cells(NamedTuple):
@@ -141,7 +142,8 @@ def _list_stays(actors: Sequence[Actor], clip_s: float) -> Iterator[_Stay]:
 
 def _is_vehicle(one: Actor) -> bool:
     """Whether it is of those for which there are bays."""
-    return one.noun.motion == "drive" and zone_of(one.noun) == "road" and one.track.anchor is None
+    noun = NOUNS.get(VARIANTS.get(one.noun.name, one.noun.name), one.noun)
+    return noun.motion == "drive" and zone_of(noun) == "road" and one.track.anchor is None
 
 
 def _lay_bays(cells: Cells, actors: Sequence[Actor], view: ViewClearance) -> list[Laid]:
@@ -163,35 +165,57 @@ def _lay_bays(cells: Cells, actors: Sequence[Actor], view: ViewClearance) -> lis
 
 
 def _fit_row(cells: Cells, first: _Stay, stays: Sequence[_Stay], going: Sequence[Actor]) -> Laid:
-    """The row with the first in the middle of a bay, and most of the others in one, too."""
+    """The row with the first in the middle of a bay, and most of those beside it in one, too."""
     open_to = _open_end(first, stays, going)
-    body = first.actor.model
     own = Laid((float(first.spot[0]), float(first.spot[1])), open_to)
-    alike = [one for one in stays if abs(math.sin(one.yaw - first.yaw)) < _PARALLEL]
-    places = own.see(np.array([one.spot for one in alike]))
-    row = np.abs(places[:, 0]) < 0.5 * cells.length_m
-    aside = places[row, 1]
-    bodies = np.array([one.actor.model.width for one in alike])[row]
-    least = max(_WIDTHS[0] * cells.width_m, body.width + 2.0 * _DOOR_M)
+    beside = _list_beside(cells, own, [first, *(one for one in stays if one is not first)])
+    width = _choose_width(cells, beside)
+    along, aside, half_length, half_width = beside.T
+    numbers = np.round(aside / width)
+    is_in = np.abs(aside - width * numbers) + half_width + _CLEAR_M < 0.5 * width
+    is_in &= np.abs(numbers) < cells.count
+    is_in[0] = True
+    numbers = numbers[is_in]
+    left = math.floor(0.5 * float(numbers.min() + numbers.max())) + 0.5 * (cells.count % 2 == 0)
+    low = float((along - half_length)[is_in].min())
+    high = float((along + half_length)[is_in].max())
+    depth = width / cells.width_m * cells.length_m
+    # Of long ones the ends stand out of the bays, on the side of the way.
+    is_deep = high - low + 2.0 * _CLEAR_M <= depth
+    ahead = 0.5 * (low + high) if is_deep else low - _DOOR_M + 0.5 * depth
+    return Laid(own.point(ahead, left * width), open_to, width / cells.width_m)
+
+
+def _list_beside(cells: Cells, own: Laid, stays: Sequence[_Stay]) -> Float64Array:
+    """[n, 4] places along and aside, and half the lengths and widths, of who stands in a row, m.
+
+    `own` is the place and the heading of the first of them.
+    """
+    rows = []
+    for one in stays:
+        along, aside = own.see(one.spot[None])[0]
+        body = one.actor.model
+        is_parallel = abs(math.sin(one.yaw - own.angle)) < _PARALLEL
+        if is_parallel and abs(along) < 0.5 * cells.length_m:
+            rows.append((along, aside, 0.5 * body.length, 0.5 * body.width))
+    return np.array(rows, dtype=np.float64)
+
+
+def _choose_width(cells: Cells, beside: Float64Array) -> float:
+    """Width of bays with which most of those beside the first stand in one, m."""
+    aside, half_width = beside[:, 1], beside[:, 3]
+    least = max(_WIDTHS[0] * cells.width_m, 2.0 * (float(half_width[0]) + _DOOR_M))
     most = max(least, _WIDTHS[1] * cells.width_m)
-    steps = np.arange(1, cells.count)
-    fitted = (np.abs(aside[:, None]) / steps).ravel()
+    exact = (np.abs(aside[:, None]) / np.arange(1, cells.count)).ravel()
     widths = [max(cells.width_m, least), *np.arange(least, most, _STEP_M)]
-    widths += [*fitted[(fitted > least) & (fitted < most)]]
+    widths += [*exact[(exact > least) & (exact < most)]]
 
     def rank(width: float) -> tuple[int, float]:
         off = np.abs(aside - width * np.round(aside / width))
-        is_clear = off + 0.5 * bodies + _CLEAR_M < 0.5 * width
+        is_clear = off + half_width + _CLEAR_M < 0.5 * width
         return -int(is_clear.sum()), float(off[is_clear].sum()) + abs(width - cells.width_m)
 
-    width = min(widths, key=rank)
-    scale = width / cells.width_m
-    numbers = np.round(aside / width)
-    near = numbers[np.abs(numbers - numbers[0]) < cells.count]
-    left = (math.floor(0.5 * float(near.min() + near.max())) + 0.5 * (cells.count % 2 == 0)) * width
-    # Of a long one the end stands out of the bay, on the side of the way.
-    along = min(0.0, 0.5 * (scale * cells.length_m - body.length) - _DOOR_M)
-    return Laid(own.point(along, left), open_to, scale)
+    return float(min(widths, key=rank))
 
 
 def _open_end(first: _Stay, stays: Sequence[_Stay], going: Sequence[Actor]) -> float:
@@ -267,10 +291,17 @@ def list_astride(items: Sequence[SceneryItem], actors: Sequence[Actor], clip_s: 
     rows = [*list_rows(items)]
     astride = []
     for stay in _list_stays(actors, clip_s):
-        corners = stay.actor.corners(stay.time_s)
+        points = _list_points(stay.actor, stay.time_s)
         for cells, row in rows:
-            near = np.abs(row.see(corners)) < _half_extents(cells, row)
-            if near.all(axis=1).any() and not is_in_cell(cells, row, stay.actor, stay.time_s):
+            is_near = (np.abs(row.see(points)) < _half_extents(cells, row)).all(axis=1).any()
+            if is_near and not is_in_cell(cells, row, stay.actor, stay.time_s):
                 astride.append(stay.actor.name)
                 break
     return list(dict.fromkeys(astride))
+
+
+def _list_points(one: Actor, time_s: float) -> Float64Array:
+    """[n, 2] points of the ground that a body covers, m."""
+    left, right, far = (one.corners(time_s)[number, :2] for number in (0, 2, 4))
+    u, v = (each.reshape(-1, 1) for each in np.meshgrid(*[np.linspace(0.0, 1.0, _POINTS)] * 2))
+    return np.asarray(left + u * (right - left) + v * (far - left))
