@@ -92,6 +92,8 @@ class Texture(IntEnum):
     """Headings, lines of letters and pictures in the second colour: labels, covers, adverts."""
     BOOKS = 54
     """Spines of books that stand side by side, of two hues and many shades."""
+    PAPER = 55
+    """Even but for fibres: paper, cardboard, a studio's backdrop."""
 
 
 FIRST_SURFACE = Texture.VARIATION
@@ -253,6 +255,8 @@ class Environment:
     """Linear RGB of a room's walls."""
     has_ceiling_panels: bool = False
     """Whether a room's ceiling is hung: panels in a grid of rails, some of them luminous."""
+    is_hall: bool = False
+    """Whether a room's walls have piers, and no windows and pictures."""
     has_highlights: bool = False
     """Whether light above white is kept; else it is compressed, so that none is brighter."""
 

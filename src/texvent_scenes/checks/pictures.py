@@ -6,6 +6,7 @@ Each picture is compared with one of the scene without what a word says, or of a
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -30,6 +31,7 @@ from texvent_scenes.staging.particles.emitter import Emitter
 from texvent_scenes.staging.surroundings.environment import build_environment
 from texvent_scenes.staging.surroundings.road_line import RoadLine
 from texvent_scenes.staging.tracks.phases import PATH_KINDS
+from texvent_scenes.words import list_plurals
 
 _SIZE, _LEAST_LEVELS, _WHITE, _LEAST_SHARE = SensorSize(120, 90), 6.0, 30.0, 0.002
 """Size of small pictures; difference of a pixel, of 255, that is seen, and that makes snow white;
@@ -55,6 +57,8 @@ _LEAST_SCENERY, _LEAST_TELLING, _STIRS = 0.02, 0.006, 0.0004
 least is inside and that few rooms have, and what moves."""
 _FULL = 0.16
 """Share of a small picture in which furniture tells that is cut off: shelves, and not feet."""
+_MOST_NAMED = 3
+"""Nouns of scenery that are named at most."""
 _ANY_ROOM = "indoor"
 """Place that bare walls tell."""
 _LEAST_CLIP_S = 1.0
@@ -169,8 +173,7 @@ def find_unshown(
     if is_said and place.is_room and not _is_told(scene, said.name or "", times):
         is_bare = is_bare or not drawn.differ(other, least=_FULL)
     if is_bare and place.scenery and not said.is_empty and _is_shared(scene, times):
-        bare = "bare walls and the floor are" if place.is_room else "the ground is"
-        line = f"{said.name}, of which only {bare} in view"
+        line = f"{said.name}, of which {_tell_seen(scene, times)}"
         yield Violation("place", said.name or "", line)
     yield from find_unseen_place(
         scene, said, is_bare=is_bare, times=times,
@@ -219,6 +222,18 @@ def _is_told(scene: ComposedScene, place: str, times: Sequence[float]) -> bool:
     own_camera = [scene.camera(time_s) for time_s in times]
     shares = [sum(one.share_of(camera) for one in own) for camera in own_camera]
     return max(shares) >= _LEAST_TELLING
+
+
+def _tell_seen(scene: ComposedScene, times: Sequence[float]) -> str:
+    """What is in view of a place that nothing tells: its walls, its ground, or what many have."""
+    shares = Counter[str]()
+    for one in scene.scenery:
+        shares[one.rule.noun] += max(one.share_of(scene.camera(time_s)) for time_s in times)
+    seen = [noun for noun, share in shares.most_common(_MOST_NAMED) if share >= _LEAST_TELLING]
+    if seen:
+        named = ", ".join(list_plurals(one)[0] for one in seen)
+        return f"no more is in view than other places have ({named})"
+    return f"only {'walls and the floor are' if scene.place.is_room else 'the ground is'} in view"
 
 
 def _is_shared(scene: ComposedScene, times: Sequence[float]) -> bool:

@@ -5,6 +5,7 @@ The tables are `data/effects.toml` and the traits "lamps"; `staging` shows both.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -61,6 +62,8 @@ class EmitterStyle:
     """Rate at which flakes tumble."""
     is_oval: bool = False
     """Whether flakes are oval, as leaves are, not pieces of paper."""
+    widest_rad: float = math.inf
+    """Greatest half extent of flakes in the image: in life they are smaller than is seen far off."""
     colours: tuple[Colour, ...] = ()
     """Colours of media at birth and at the end; of solid bodies those that occur, none = those of
     the object."""

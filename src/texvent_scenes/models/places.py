@@ -14,10 +14,11 @@ from typing import Any, Literal
 from texvent_scenes.models.tables import frozen, read_table
 from texvent_scenes.rendered_scene import Colour, Ground, Texture
 
-Where = Literal["around", "walls", "under", "water", "far", "route", "kerb"]
+Where = Literal["around", "walls", "under", "water", "far", "route", "kerb", "bays"]
 """Regions of a place for scenery."""
 _SCALES: Mapping[str, tuple[float, float]] = {
     "walls": (0.95, 1.1), "under": (1.0, 1.0), "kerb": (0.95, 1.05),
+    "bays": (0.95, 1.05),
 }  # fmt: skip
 """Usual multiples of its size, of what does not stand around."""
 
@@ -65,6 +66,8 @@ class PlaceModel:
     """Half the width of its road or river."""
     corridor_m: float = 0.0
     """Half its width, of a room that is a corridor; 0 = it is none."""
+    hall_m: float = 0.0
+    """Half its least side, of a room that is a hall, m; 0 = it is none."""
     light: str = ""
     """Its daylight, where that is not that of the open air."""
     flight_m: float = 0.0

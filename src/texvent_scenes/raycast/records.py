@@ -118,6 +118,7 @@ INSTANT_RECORD = np.dtype(
         ("ceiling", "f8"),  # its height
         ("is_corridor", "i8"),
         ("has_panels", "i8"),  # of the ceiling
+        ("is_hall", "i8"),
         ("time", "f8"),
     ],
     align=True,
@@ -359,6 +360,7 @@ def describe_surroundings(instant: NDArray[Any], environment: Environment, shado
     instant["ceiling"] = CEILING * environment.room_half_size
     instant["is_corridor"] = int(environment.corridor_half_width is not None)
     instant["has_panels"] = int(environment.has_ceiling_panels)
+    instant["is_hall"] = int(environment.is_hall)
     if environment.corridor_half_width is not None:
         instant["room_x"], instant["ceiling"] = environment.corridor_half_width, CORRIDOR_HEIGHT_M
     instant["time"] = environment.time_s

@@ -42,6 +42,7 @@ from texvent_scenes.staging.surroundings.environment import (
 )
 from texvent_scenes.staging.surroundings.lamps import LampPlan, plan_lamps
 from texvent_scenes.staging.surroundings.lighting import DARK, choose_lighting, is_unlit_room
+from texvent_scenes.staging.surroundings.markings import list_astride
 from texvent_scenes.staging.surroundings.pieces import SceneryItem, ViewClearance
 from texvent_scenes.staging.surroundings.road_line import (
     RoadLine,
@@ -181,7 +182,7 @@ def compose_scene(
         tuple(actors), still, particles, camera_path, ground, animated_environment, lamps, names,
         tuple(dict.fromkeys([*placer.not_shown, *_list_late(description, duration_s)])),
         (*dict.fromkeys(placer.notes), *_tell_roads(description, ground, view.road),
-         *_tell_dark(description, ground)),
+         *_tell_dark(description, ground), *_tell_bays(items, actors, duration_s)),
         placer.orphans, tuple(items),
         list_strings(description, actors, animated_environment.base.ceiling_m, duration_s),
         object_ids={one.instance: ids[one.object_index] for one in actors},
@@ -206,6 +207,14 @@ def _tell_dark(description: SceneDescription, place: PlaceModel) -> Iterator[str
             f"the {description.place.name} is dark at {description.light.kind}: the lamps and "
             'screens of its own are off (is_lit of the place, or the light "lamp", has them on)'
         )
+
+
+def _tell_bays(
+    items: Sequence[SceneryItem], actors: Sequence[Actor], duration_s: float
+) -> Iterator[str]:
+    """Vehicles that rest across the lines of bays, since no row fits all of them."""
+    for name in list_astride(items, actors, duration_s):
+        yield f"the {name} stands across the lines of the bays: no row of bays fits all vehicles"
 
 
 def _tell_roads(

@@ -37,6 +37,10 @@ _BUMPER_M = 0.82
 """Height of the rail along the walls of corridors, m."""
 _BOARD, _BOARD_M, _NOTE_M = (0.3, 0.2, 0.11), (0.55, 0.38), 0.2
 """Colour of the notice boards of corridors, half their sides, and the distance of their notes."""
+_PIER_EVERY_M, _PIER_M, _BEAM_M = 4.5, 0.16, 0.11
+"""Distance of the piers of a hall and of the beams above them, and half their widths, m."""
+_STRIP_M = (0.09, 0.75)
+"""Half the sides of the luminous strips between the beams, m."""
 _CEILING = (1.7, 1.69, 1.64)
 """White, and lit from below by what floor and walls send back, which is not traced."""
 
@@ -58,7 +62,8 @@ def _hanging(cell: int, side: int) -> float:
 @jit(error_model="numpy", inner=True)
 def has_window(instant: Record, cell: int, side: int) -> bool:
     """Whether there is a window on a stretch of a room's wall; see `_hang`."""
-    return instant.wall_surface not in (_STONE, _CLOTH) and _hanging(cell, side) < 0.4
+    is_bare = instant.is_hall or instant.wall_surface in (_STONE, _CLOTH)
+    return not is_bare and _hanging(cell, side) < 0.4
 
 
 @jit(error_model="numpy", inner=True)
@@ -179,6 +184,37 @@ def _lit_share(point: Vector, feet: Colour) -> float:
 
 
 @jit(error_model="numpy", inner=True)
+def _pier_wall(wall: Colour, place: tuple[float, float], feet: Colour, top: float) -> Colour:
+    """A wall of a hall: piers, rails between them, and a band of paint above the floor."""
+    along = _from_middle(place[0], _PIER_EVERY_M)
+    wall = mix(wall, scaled(wall, 0.72), box_coverage(place[1], 0.0, 1.1, feet[1]))
+    for number in range(1, 4):
+        height = 0.25 * number * top
+        rail = box_coverage(place[1], height - 0.03, height + 0.03, feet[1])
+        wall = mix(wall, scaled(wall, 0.6), rail)
+    edge = box_coverage(along, -_PIER_M - 0.03, _PIER_M + 0.03, feet[0])
+    wall = mix(wall, scaled(wall, 0.55), edge)
+    return mix(wall, scaled(wall, 2.2), box_coverage(along, -_PIER_M, _PIER_M, feet[0]))
+
+
+@jit(error_model="numpy", inner=True)
+def _beamed(colour: Colour, point: Vector, feet: Colour) -> Colour:
+    """The ceiling of a hall: beams, and luminous strips between them."""
+    x = _from_middle(point[0], _PIER_EVERY_M)
+    y = _from_middle(point[1], _PIER_EVERY_M)
+    colour = scaled(colour, 0.55)
+    beam = max(
+        box_coverage(x, -_BEAM_M, _BEAM_M, feet[0]), box_coverage(y, -_BEAM_M, _BEAM_M, feet[1])
+    )
+    colour = scaled(colour, 1.0 - 0.6 * beam)
+    strip = (
+        _from_middle(point[0] - 0.5 * _PIER_EVERY_M, 0.5 * _PIER_EVERY_M),
+        _from_middle(point[1] - 0.5 * _PIER_EVERY_M, _PIER_EVERY_M),
+    )
+    return mix(colour, _LIGHT, _box_share(strip, _STRIP_M, feet))
+
+
+@jit(error_model="numpy", inner=True)
 def _notices(wall: Colour, at: tuple[float, float], feet: Colour, cell: int) -> Colour:
     """A wall with a board of paper notes; `at` is metres from its middle."""
     colour = mix(wall, _DARK_FRAME, _box_share(at, (_BOARD_M[0] + 0.03, _BOARD_M[1] + 0.03), feet))
@@ -221,6 +257,8 @@ def _ceiling_look(
         colour = mix(colour, _LIGHT, _panel_share(point, feet))
     elif instant.has_panels:
         colour = mix(colour, _LIGHT, _lit_share(point, feet))
+    elif instant.is_hall:
+        colour = _beamed(colour, point, feet)
     return colour, (-look[1], -look[2], -1.0)
 
 
@@ -251,7 +289,7 @@ def wall_look(
     """Reflectance and normal of a room's wall or ceiling.
 
     Walls have a skirting board, windows and pictures, over a floor of boards panels too; those of
-    rock or drapery have none.
+    rock or drapery have none, those of halls piers.
     """
     right, down = patch
     a, b = (1, 2) if face == 0 else (0, 2)
@@ -272,6 +310,8 @@ def wall_look(
         if face == 0:
             colour = _between_doors(colour, (point[1], point[2]), feet, int(side > 0.0))
         colour = _door(colour, (_from_middle(point[a], every), point[2]), feet, face)
+    elif instant.is_hall:
+        colour = _pier_wall(colour, (point[a], point[2]), feet, instant.ceiling)
     elif instant.wall_surface not in (_STONE, _CLOTH):
         place = (point[a], point[2])
         colour = _hang(instant, colour, place, feet, 2 * face + int(side > 0.0))

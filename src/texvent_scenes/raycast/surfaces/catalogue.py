@@ -91,6 +91,7 @@ SURFACES: dict[Texture, SurfaceKind] = {
     Texture.PANE: SurfaceKind(patterns.worn, 1.6, wear=0.0, gloss=0.1, crown=0.06),
     Texture.MIRROR: SurfaceKind(patterns.worn, 1.6, wear=0.0, gloss=0.9, roughness=0.004),
     Texture.PRINT: SurfaceKind(patterns.print_, 0.5, wear=0.0),
+    Texture.PAPER: SurfaceKind(patterns.paper, 0.8, wear=0.0),
     Texture.BOOKS: SurfaceKind(patterns.books, 1.2, 0.5, wear=0.0),
 }
 """Every material."""

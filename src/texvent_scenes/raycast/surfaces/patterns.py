@@ -227,6 +227,12 @@ def worn() -> Pattern:
     return Pattern(exponential(0.07 * dirt - 0.12 * scratches), 0.0 * dirt, 0.0 * dirt)
 
 
+def paper() -> Pattern:
+    """Fibres, of which a sensor with usual thresholds sees nothing."""
+    fibres = fractal(16, 4, 213, gain=0.9, stretch=4)
+    return Pattern(exponential(0.01 * fibres), 0.0 * fibres, 0.0 * fibres)
+
+
 def stone() -> Pattern:
     """Rock: facets, cracks, lichen."""
     rough = fractal(2, 7, 221, gain=0.85)

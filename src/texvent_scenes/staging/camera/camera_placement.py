@@ -392,10 +392,16 @@ def _keep_in_room(path: CameraTrack, shooting: _Shooting, travel: TravelPlan | N
         corners = corners_over(actors, middle) if actors else np.zeros((1, 3))
         reach = float(np.abs(corners[:, :2]).max())
         path = replace(path, room_m=max(0.5 * travel.length_m + 3.5, reach + 0.8, _LEAST_ROOM_M))
-        return _keep_in_corridor(path, shooting)
+        return _keep_in_corridor(_in_hall(path, shooting), shooting)
     near = [one for one in actors if objects[one.object_index].placement != "far"]
     corners = corners_over(near or actors, shooting.times) if actors else np.zeros((1, 3))
-    return _keep_in_corridor(path.in_room(corners, shooting.times), shooting)
+    path = _in_hall(path.in_room(corners, shooting.times), shooting)
+    return _keep_in_corridor(path, shooting)
+
+
+def _in_hall(path: CameraTrack, shooting: _Shooting) -> CameraTrack:
+    """The path in a hall, which is large and high whatever is in it."""
+    return replace(path, room_m=max(path.room_m, PLACES[shooting.place].hall_m))
 
 
 def _keep_in_corridor(path: CameraTrack, shooting: _Shooting) -> CameraTrack:

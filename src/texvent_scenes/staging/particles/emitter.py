@@ -162,19 +162,23 @@ class Emitter:
         if style.body == "drop":
             maps = along(flown.places, flown.heading, half)
             return many_shapes(maps, Shape.ELLIPSOID, self.colours[which], glow)
-        half = np.maximum(half * self._clear(flown.places, time_s), TINY_M)
+        half = np.maximum(self._seen(half, flown.places, time_s), TINY_M)
         rate = style.turns * math.sqrt(GRAVITY_M_S2 / max(self.source.size_m, 0.02))
         starts, turned = flown.draws[:, [0, 2]], rate * flown.age_s[:, None]
         angles = 6.0 * starts + 6.6 * (starts - 0.5) * turned
         shape = Shape.ELLIPSOID if style.is_oval else Shape.BOX
-        return many_shapes(tumbling(flown.places, angles, half), shape, self.colours[which])
+        return many_shapes(tumbling(flown.places, angles, half), shape, self.colours[which], glow)
 
-    def _clear(self, places: Float64Array, time_s: float) -> Float64Array:
-        """[n, 1] share of its size that each flake is shown with: 0 right before the camera."""
+    def _seen(self, half: Float64Array, places: Float64Array, time_s: float) -> Float64Array:
+        """[n, 3] half extents that flakes are shown with: none right before the camera, m.
+
+        Those of a size that stands for a smaller one, far off, are no larger nearby.
+        """
         camera = self.setting.camera
         away = np.linalg.norm(places - camera.at(time_s).position, axis=1)[:, None]
         nearest_m = _NEAREST * camera.framing.distance_m
-        return np.asarray(np.clip(away / nearest_m - 1.0, 0.0, 1.0))
+        shown = half * np.clip(away / nearest_m - 1.0, 0.0, 1.0)
+        return np.asarray(np.minimum(shown, self.style.widest_rad * away))
 
     def media(self, time_s: float) -> NDArray[Any]:
         """[k] `MEDIUM_RECORD` at that instant."""

@@ -245,6 +245,7 @@ def build_environment(
         wall_surface=place.walls,
         wall_colour=place.wall_colour,
         has_ceiling_panels=place.has_ceiling_panels,
+        is_hall=place.hall_m > 0.0,
         road_crossings=np.array(road.crossings, dtype=np.float64).reshape(-1, 3),
     )
     return AnimatedEnvironment(base, description.light.flicker_hz, description.light.wave)
@@ -306,8 +307,9 @@ def _ground_colours(place: PlaceModel, said: Place) -> tuple[Colour, Colour]:
     if paint is not None:
         # Grass is darker than paint: blades shade one another.
         depth = 0.45 if place.ground is Ground.GRASS else 0.8
+        lighter = 1.0 if place.is_backdrop else 1.5  # which is even
         colour = mix(_BLACK, paint, depth)
-        second = mix(_BLACK, paint, min(1.5 * depth, 1.0))
+        second = mix(_BLACK, paint, min(lighter * depth, 1.0))
     return colour, second
 
 

@@ -20,6 +20,13 @@ from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.camera.journey import NORTH, VIEW_M, TravelPlan
+from texvent_scenes.staging.surroundings.markings import (
+    Laid,
+    is_off,
+    lay_lines,
+    list_bays,
+    list_rows,
+)
 from texvent_scenes.staging.surroundings.pieces import ASPECT, SceneryItem, ViewClearance
 
 _BANK_M = 1.0
@@ -52,9 +59,11 @@ _LEAST_STEPS, _FINER = 4, 25
 """Instants of an object's way that must be free, and how many times as many at most."""
 _BEFORE_M, _MOST_ITEMS = 4.0, 90
 """Start of scenery before a route's beginning, and greatest number of pieces."""
-_ON_BRIDGE_M, _BEYOND = 0.5, 1.3
-"""Height of a train from which on no rails lie on the ground below it, m; distance of what is far
-beyond a subject that moves, in camera distances."""
+_BEYOND, _NOSE_IN = 1.3, 0.7
+"""Distance of what is far beyond a subject that moves, in camera distances; share of vehicles in
+bays whose nose is at the closed end."""
+_ALONG_LINES = ("kerb", "bays")
+"""Regions in which pieces stand along lines, close to others."""
 
 
 def scatter(
@@ -109,16 +118,15 @@ class _Scatterer:
         self.items: list[SceneryItem] = []
         self._stands: Mapping[str, Callable[[Scenery, Model, PosedCamera], SceneryItem | None]]
         self._stands = defaultdict(
-            lambda: self._stand_around, walls=self._stand_at_wall, kerb=self._stand_at_kerb
+            lambda: self._stand_around,
+            walls=self._stand_at_wall,
+            kerb=self._stand_at_kerb,
+            bays=self._stand_in_bay,
         )
-        self._view, self._nouns, self._rng = view, nouns, rng
+        self._view, self._nouns, self._rng, self._actors = view, nouns, rng, actors
         self._yaw = actors[0].track.at(0.0).yaw if actors else 0.0
         """Heading of the first object."""
         self._has_mover = any(one.is_mover for one in actors)
-        on_rails = (one for one in actors if trait_value("zone", one.noun.name) == "rails")
-        self._train = next(on_rails, None)
-        wheeled = (one for one in actors if one.noun.name in nouns_with("takes off"))
-        self._lander = next(wheeled, None)
         rows = [
             (*one.middle(float(time_s))[:2], 0.5 * max(one.model.length, one.model.width))
             for one in actors
@@ -227,18 +235,28 @@ class _Scatterer:
         return along_road if is_parallel else float(self._rng.uniform(0.0, 2.0 * math.pi))
 
     def lay_under(self, rule: Scenery) -> None:
-        """Under the middle of all, along the road, so far on as the first of them looks."""
+        """Lines on the ground, fitted to the objects; see `markings.lay_lines`."""
         x, y = self._bodies[:, :2].mean(axis=0) if len(self._bodies) else (0.0, 0.0)
-        ahead, angle = rule.reach[0], self._view.road.angle
-        if rule.noun in nouns_with("rails") and self._train is not None:
-            if self._train.lowest_m(0.0) > _ON_BRIDGE_M:
-                return
-            x, y, angle = *self._train.middle(0.0)[:2], self._train.track.at(0.0).yaw
-        elif rule.noun in nouns_with("strip") and self._lander is not None:
-            ends = [self._lander.middle(time_s)[:2] for time_s in (0.0, self._view.clip_s)]
-            (x, y), angle = np.mean(ends, axis=0), self._lander.track.at(0.0).yaw
-        spot = (x + ahead * math.cos(self._yaw), y + ahead * math.sin(self._yaw))
-        self.items.append(SceneryItem(rule, self._build(rule, 0), spot, angle))
+        ahead = rule.reach[0]
+        spot = (float(x + ahead * math.cos(self._yaw)), float(y + ahead * math.sin(self._yaw)))
+        usual = Laid(spot, self._view.road.angle)
+        for one in lay_lines(rule.noun, usual, self._actors, self._view):
+            model = self._build(rule, 0, one.scale)
+            self.items.append(SceneryItem(rule, model, one.spot, one.angle))
+
+    def _stand_in_bay(self, rule: Scenery, model: Model, camera: PosedCamera) -> SceneryItem | None:
+        """In a free bay that the camera sees, its nose at the closed end or at the way."""
+        bays = [
+            (row, place) for cells, row in list_rows(self.items) for place in list_bays(cells, row)
+        ]
+        if not bays:
+            return None
+        row, place = bays[int(self._rng.integers(len(bays)))]
+        spot = row.point(*map(float, place))
+        yaw = row.angle + math.pi * float(self._rng.uniform() < _NOSE_IN)
+        item = SceneryItem(rule, model, spot, yaw)
+        is_taken = any(one.rule.where == "bays" and one.position == spot for one in self.items)
+        return item if item.share_of(camera) and not is_taken else None
 
     def _stand_around(self, rule: Scenery, model: Model, camera: PosedCamera) -> SceneryItem:
         """Somewhere in what the camera sees, as far off as the rule says."""
@@ -303,7 +321,7 @@ class _Scatterer:
 
     def _meets_body(self, item: SceneryItem, deep_m: float) -> bool:
         """Whether an object comes near: to its circle, or to its box if it stands along a road."""
-        if item.rule.where != "kerb":
+        if item.rule.where not in _ALONG_LINES:
             apart = np.hypot(*(self._bodies[:, :2] - item.position).T)
             return bool(np.any(apart < self._bodies[:, 2] + deep_m + _ROOM_M))
         cosine, sine = math.cos(item.yaw), math.sin(item.yaw)
@@ -311,6 +329,11 @@ class _Scatterer:
         half = np.array([item.radius_m, deep_m]) + _ROOM_M
         is_near = (corners.min(axis=1) < half) & (corners.max(axis=1) > -half)
         return bool(is_near.all(axis=1).any())
+
+    def _is_on_bays(self, item: SceneryItem) -> bool:
+        """Whether a piece stands on bays, which only vehicles do."""
+        rows = list_rows(self.items)
+        return any(not is_off(*row, item.position, item.radius_m) for row in rows)
 
     def _is_free(self, item: SceneryItem) -> bool:
         """Whether an item has room, hides nothing, and stands where it may: on land or afloat."""
@@ -326,11 +349,15 @@ class _Scatterer:
             return False
         # What stands at a wall is as deep as it is long, not as it is wide.
         deep = min(0.5 * item.model.length + 0.3, radius) if is_at_wall else radius
-        if item.rule.where == "kerb":
+        if item.rule.where in _ALONG_LINES:
             deep = 0.5 * item.model.width + 0.3
         if self._meets_body(item, deep):
             return False
-        others = (one for one in self.items if not one.is_flat)
+        is_parked = item.rule.where == "bays"
+        if not is_parked and self._is_on_bays(item):
+            return False
+        others = (one for one in self.items
+                  if not one.is_flat and not (is_parked and one.rule.where == "bays"))  # fmt: skip
         if any(np.hypot(*(spot - one.position)) < 0.8 * (radius + one.radius_m) for one in others):
             return False
         return not _hides(spot, radius, deep, view)
