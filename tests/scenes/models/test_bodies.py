@@ -88,7 +88,9 @@ def test_an_act_moves_parts_smoothly_and_not_into_the_ground(noun):
     size, ground = model.height, bounds(parts_at(noun, "stand", 0.0))[0][2]
     acts = NOUNS[noun].acts - TRAVELLING
     of_things = {one for one in ANIMAL_ACTIVITIES if {*one.split()} & {*OF_THINGS}}
-    on_legs = frozenset(ANIMAL_ACTIVITIES) - TRAVELLING - of_things - {"clap"}  # which only flippers do
+    on_legs = (
+        frozenset(ANIMAL_ACTIVITIES) - TRAVELLING - of_things - {"clap"}
+    )  # which only flippers do
     assert acts in (on_legs, MOUTH_ACTIVITIES, MOUTH_ACTIVITIES | {"dance in place", "shake off"})
     for act in acts:
         start, moved = parts_at(noun, act, 0.0), 0.0
