@@ -107,6 +107,19 @@ def test_only_a_recording_is_replaced(native, tmp_path):
         rig.record(PROMPT, out, overwrite=True, **small)
 
 
+def assert_points_match(chain: dict, to_depth: np.ndarray) -> None:
+    """Of points before the left camera, the files give one row, and depth from disparity."""
+    turns = [np.array(chain["extrinsics"][f"R_rect{number}"]) for number in (0, 3)]
+    across = np.array(chain["extrinsics"]["T_21"])
+    lens = chain["intrinsics"]["camRect0"]["camera_matrix"]
+    for point in np.random.default_rng(4).uniform((-1, -1, 2), (1, 1, 9), (20, 3)):
+        seen = [turns[0] @ point, turns[1] @ (across @ [*point, 1.0])[:3]]
+        (x, y), (other, row) = (lens[:2] * one[:2] / one[2] + lens[2:] for one in seen)
+        assert row == pytest.approx(y, abs=1e-6)
+        where = to_depth @ [x, y, x - other, 1.0]
+        np.testing.assert_allclose(where[:3] / where[3], seen[0], atol=1e-6)
+
+
 @pytest.mark.long
 def test_dsec_frames_return_to_the_raw_pixels(tmp_path, native):
     """Through rectification and back, frames differ from the raw ones by interpolation only."""
@@ -144,6 +157,7 @@ def test_dsec_frames_return_to_the_raw_pixels(tmp_path, native):
     assert sorted(chain) == ["disparity_to_depth", "extrinsics", "intrinsics"]
     depth = np.array(chain["disparity_to_depth"]["cams_03"])
     assert 1.0 / depth[3, 2] == pytest.approx(0.1)
+    assert_points_match(chain, depth)
     disparity = cv2.imread(str(out / "disparity/event/000001.png"), cv2.IMREAD_UNCHANGED)
     assert disparity.dtype == np.uint16
     lines = (out / "images/left/exposure_timestamps.txt").read_text().splitlines()

@@ -137,3 +137,16 @@ def test_pieces_have_the_colours_of_all_that_is_no_detail(noun):
     bulky = {one.colour for one, bulk in zip(parts, bulks, strict=True) if bulk > 0.02 * max(bulks)}
     for pieces in scene.particles.effects:
         assert {tuple(one) for one in pieces.colours.tolist()} == bulky
+
+
+def is_seen(emitter, time_s):
+    clouds, pieces = emitter.media(time_s)["optical_depth"], emitter.at(time_s).to_world[:, :, :3]
+    return bool(clouds.any() or np.abs(pieces).max(initial=0.0) > 20.0 * TINY_M)
+
+
+@pytest.mark.parametrize("kind", EFFECTS)
+def test_nothing_of_an_effect_is_there_before_it_begins(kind):
+    for emitter in staged(Effect(kind, "box")).particles.effects:
+        later = replace(emitter, start_s=0.4)
+        assert not any(is_seen(later, time_s) for time_s in (0.0, 0.2, 0.39))
+        assert any(is_seen(later, time_s) for time_s in (0.45, 0.7, 1.2))
