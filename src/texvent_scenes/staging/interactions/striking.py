@@ -314,10 +314,10 @@ def deliver(
         turn = math.remainder(math.atan2(over[1], over[0]) - track.yaw, math.tau)
         flight = replace(flight, speed_m_s=speed)
         track = replace(track, yaw=track.yaw + turn)
-        terms = tuple(one._replace(offset=one.offset - turn * (one.channel == "yaw"))
+        turned = tuple(one._replace(offset=one.offset - turn * (one.channel == "yaw"))
                       for one in sent.terms)  # fmt: skip
         keys = (*track.keys[:-1], flight, last)
-        sent = replace(sent, yaw=track.yaw, keys=keys, terms=terms)
+        sent = replace(sent, yaw=track.yaw, keys=keys, terms=turned)
     way_m = speed * flown_s + arm_m + (0.0 if is_thrown else 0.5 * thing.model.length)
     place = ahead((x, y, level_m), track.yaw, way_m, level_m)
     place = receiver.track.at(0.0).position if is_placed else place
