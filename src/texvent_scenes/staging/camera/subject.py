@@ -167,6 +167,8 @@ def _list_groups(
     relations, own = description.relations, main.object_index
     tied = [{r.subject, *r.targets} for r in relations if own in (r.subject, *r.targets)]
     related = set().union(*tied) - {own}
+    catching = {r.subject for r in relations if r.kind == "catch" and related & {*r.targets}}
+    related |= catching - {own}
     for r in (r for r in relations if r.kind == "on"):  # said from the lowest one of a stack on
         related |= {r.subject} - {own} if related.intersection(r.targets) else set()
     landmarks = {n for r in relations if r.kind in _KEPT_TOGETHER for n in r.targets}
@@ -176,7 +178,7 @@ def _list_groups(
     partners = [one for one in near if one.object_index in (related | sides) - {own}]
     # A lighthouse and a swing only work where they are.
     goes = [one for one in near if one.is_mover and one.noun.habitat != "fixed"]
-    told = landmarks | whole | agents
+    told = landmarks | whole | agents | catching
     kept = [one for one in partners if one.object_index in told | sides]
     bound = [one for one in partners if one.object_index in told & related]
     return [near, [*(goes if main.is_mover else near), *partners], partners, kept, bound]

@@ -16,7 +16,7 @@ from texvent_scenes.staging.tracks.track import Term, Track, ballistic, steady
 BY_HAND = ("lift", "set down", "drop")
 """Acts of a hand that has no body."""
 _RAISED_M, _RAISED_S = 0.35, 0.7
-"""How far a hand lifts a thing, and how long it takes."""
+"""Height to which a hand lifts a thing, and the time that it takes."""
 _REACHING_RAD, _HIGH_M = 2.0, 0.09
 """Turn of a hand whose arm comes from the camera and from above; its least height over what the
 thing is on."""

@@ -79,21 +79,22 @@ def settle_motions(
 
 
 def _sent_on(relations: Sequence[IndexedRelation]) -> list[IndexedRelation]:
-    """Relations in which a thing that one sends goes to who catches it, or to what it is towards.
+    """Relations in which a thing that one sends goes to what it is towards, and to who catches it.
 
     The sender has them then.
     """
     senders = {one.targets[0]: one.subject for one in relations if one.kind in SENT}
-    found = []
+    found: list[IndexedRelation] = []
     for one in relations:
         thing = one.targets[0] if one.kind == "catch" else one.subject
-        sender = senders.get(thing, one.subject)
+        sender, sent = senders.get(thing, one.subject), one
         if one.kind == "catch" and sender != one.subject:
-            one = IndexedRelation("towards", sender, (one.subject,))
+            sent = IndexedRelation("towards", sender, (one.subject,))
         elif one.kind == "towards" and sender != one.subject:
-            one = replace(one, subject=sender)
-        found.append(one)
-    return list(dict.fromkeys(found))
+            sent = replace(one, subject=sender)
+        if sent == one or sent not in found:
+            found.append(sent)
+    return found
 
 
 def _stated(act: IndexedRelation, objects: Sequence[SceneObject]) -> IndexedRelation:

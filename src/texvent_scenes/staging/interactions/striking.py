@@ -314,20 +314,42 @@ def deliver(
         turn = math.remainder(math.atan2(over[1], over[0]) - track.yaw, math.tau)
         flight = replace(flight, speed_m_s=speed)
         track = replace(track, yaw=track.yaw + turn)
-        terms = tuple(one._replace(offset=one.offset - turn * (one.channel == "yaw"))
+        turned = tuple(one._replace(offset=one.offset - turn * (one.channel == "yaw"))
                       for one in sent.terms)  # fmt: skip
         keys = (*track.keys[:-1], flight, last)
-        sent = replace(sent, yaw=track.yaw, keys=keys, terms=terms)
+        sent = replace(sent, yaw=track.yaw, keys=keys, terms=turned)
     way_m = speed * flown_s + arm_m + (0.0 if is_thrown else 0.5 * thing.model.length)
     place = ahead((x, y, level_m), track.yaw, way_m, level_m)
     place = receiver.track.at(0.0).position if is_placed else place
     rest = steady(place, track.yaw + math.pi, activity="stand")
-    if is_thrown and person:
+    if is_thrown and not person:
+        return _leap_for(replace(thing, track=sent), replace(receiver, track=rest), flown_s)
+    if is_thrown:
         side, high = 0.5 * thing.model.width, 1.08 * size
         rest = replace(
             rest, grips=(("left hand", (arm_m, side, high)), ("right hand", (arm_m, -side, high)))
         )
     return replace(thing, track=sent), moving(receiver, rest)
+
+
+def _leap_for(thing: Actor, animal: Actor, flown_s: float) -> tuple[Actor, Actor]:
+    """Both, the thing that is thrown ending at the mouth of an animal that leaps for it."""
+    track, flight = thing.track, thing.track.keys[-2]
+    caught_s = sum(key.duration_s for key in track.keys[:-1])
+    animal = moving(animal, _leap(animal, caught_s))
+    held = held_at(animal, "mouth", shift(0.0, 0.0, -thing.lift_m), is_upright=True)
+    end = held.at(caught_s).position
+    way, hop_m = np.subtract(end, track.start), end[2] - held.at(0.0).position[2]
+    up_m_s = float(way[2]) / flown_s + 0.5 * GRAVITY_M_S2 * flown_s
+    turn = math.remainder(math.atan2(way[1], way[0]) - track.yaw, math.tau)
+    terms = tuple(one._replace(offset=one.offset - turn * (one.channel == "yaw"))
+                  for one in track.terms)  # fmt: skip
+    speed_m_s = float(np.hypot(*way[:2])) / flown_s
+    flight = replace(flight, speed_m_s=speed_m_s, climb_m_s=up_m_s)
+    keys = (*track.keys[:-2], flight, Key(1.0, ramp_s=0.0, restitution=0.0))  # down with it
+    floor_m = float(end[2] - hop_m)
+    track = replace(track, yaw=track.yaw + turn, keys=keys, terms=terms, floor_m=floor_m)
+    return replace(thing, track=track), animal
 
 
 _STEP_S, _KEPT = 1e-3, 0.6

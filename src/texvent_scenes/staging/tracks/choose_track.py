@@ -53,12 +53,11 @@ def choose_track(
         return replace(steady(home, plan.yaw), terms=plan.work)
     if plan.path is not None:
         x, y, z = np.add(plan.path.start, home)
-        # What flies stays above the ground.
-        floor = (
-            plan.path.floor_m + home[2]
-            if plan.path.floor_m > NO_FLOOR_M
-            else min(0.5 * model.height, home[2])
-        )
+        # What flies stays above the ground; what is in the water goes down from the surface.
+        dives = any(key.climb_m_s < 0.0 and key.activity == "swim" for key in plan.path.keys)
+        lowest = -math.inf if home[2] <= 0.0 and dives else min(0.5 * model.height, home[2])
+        has_floor = plan.path.floor_m > NO_FLOOR_M
+        floor = plan.path.floor_m + home[2] if has_floor else lowest
         return replace(
             plan.path, start=(x, y, z), floor_m=floor, radius_m=plan.radius_m,
             is_facing=plan.is_facing,

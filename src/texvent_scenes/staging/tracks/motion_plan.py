@@ -40,7 +40,7 @@ from texvent_scenes.staging.tracks.turning import axle_of
 _OF_CAMERA, _LOOMING = ("towards", "away"), 45.0
 """Directions in depth; most way of what flies so in a clip, in its own sizes: farther off it is a
 point."""
-_MIRRORED: Mapping[str, Direction] = {
+_MIRRORED: Mapping[Direction | None, Direction] = {
     "clockwise": "counter-clockwise", "counter-clockwise": "clockwise",
     "right": "left", "left": "right",
 }  # fmt: skip
