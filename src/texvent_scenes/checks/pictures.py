@@ -6,7 +6,6 @@ Each picture is compared with one of the scene without what a word says, or of a
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -226,10 +225,13 @@ def _is_told(scene: ComposedScene, place: str, times: Sequence[float]) -> bool:
 
 def _tell_seen(scene: ComposedScene, times: Sequence[float]) -> str:
     """What is in view of a place that nothing tells: its walls, its ground, or what many have."""
-    shares = Counter[str]()
+    cameras = [scene.camera(time_s) for time_s in times]
+    shares: dict[str, float] = {}
     for one in scene.scenery:
-        shares[one.rule.noun] += max(one.share_of(scene.camera(time_s)) for time_s in times)
-    seen = [noun for noun, share in shares.most_common(_MOST_NAMED) if share >= _LEAST_TELLING]
+        own = max(map(one.share_of, cameras))
+        shares[one.rule.noun] = shares.get(one.rule.noun, 0.0) + own
+    most = sorted(shares, key=lambda noun: -shares[noun])[:_MOST_NAMED]
+    seen = [noun for noun in most if shares[noun] >= _LEAST_TELLING]
     if seen:
         named = ", ".join(list_plurals(one)[0] for one in seen)
         return f"no more is in view than other places have ({named})"
