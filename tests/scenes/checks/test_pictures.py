@@ -48,7 +48,7 @@ def test_a_line_on_a_room_says_what_of_it_is_in_view(room):
     for line in (
         one.line for one in find_unshown(bare, said, TIMES_S) if one.kind == "place" and one.line
     ):
-        named = line.partition("(")[2].rstrip(")")
+        named = line.partition(" only ")[2].partition("walls")[0]
         assert {*filter(None, named.split(", "))} <= {list_plurals(one)[0] for one in seen}
         assert named or not any(
             one.share_of(scene.camera(t)) > 0.01 for one in kept for t in TIMES_S
