@@ -6,7 +6,6 @@ Each picture is compared with one of the scene without what a word says, or of a
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -16,6 +15,7 @@ import numpy as np
 from texvent.sensor import SensorSize
 from texvent_scenes.checks.places import find_unseen_place, share_of_walls
 from texvent_scenes.checks.relations import Violation
+from texvent_scenes.checks.surfaces import join_words
 from texvent_scenes.defaults import NO_PLACE
 from texvent_scenes.description import STANDING, SceneDescription, label_of
 from texvent_scenes.models.effects import EFFECTS, LAMPS
@@ -57,8 +57,6 @@ _LEAST_SCENERY, _LEAST_TELLING, _STIRS = 0.02, 0.006, 0.0004
 least is inside and that few rooms have, and what moves."""
 _FULL = 0.16
 """Share of a small picture in which furniture tells that is cut off: shelves, and not feet."""
-_MOST_NAMED = 3
-"""Nouns of scenery that are named at most."""
 _ANY_ROOM = "indoor"
 """Place that bare walls tell."""
 _LEAST_CLIP_S = 1.0
@@ -225,15 +223,16 @@ def _is_told(scene: ComposedScene, place: str, times: Sequence[float]) -> bool:
 
 
 def _tell_seen(scene: ComposedScene, times: Sequence[float]) -> str:
-    """What is in view of a place that nothing tells: its walls, its ground, or what many have."""
-    shares = Counter[str]()
+    """What is in view of a place that it does not tell: its walls, its ground, what many have."""
+    cameras = [scene.camera(time_s) for time_s in times]
+    shares: dict[str, float] = {}
     for one in scene.scenery:
-        shares[one.rule.noun] += max(one.share_of(scene.camera(time_s)) for time_s in times)
-    seen = [noun for noun, share in shares.most_common(_MOST_NAMED) if share >= _LEAST_TELLING]
-    if seen:
-        named = ", ".join(list_plurals(one)[0] for one in seen)
-        return f"no more is in view than other places have ({named})"
-    return f"only {'walls and the floor are' if scene.place.is_room else 'the ground is'} in view"
+        own = max(map(one.share_of, cameras))
+        shares[one.rule.noun] = shares.get(one.rule.noun, 0.0) + own
+    seen = [list_plurals(noun)[0] for noun, share in shares.items() if share >= _LEAST_TELLING]
+    rest = ["walls", "the floor"] if scene.place.is_room else ["the ground"]
+    verb = "is" if [*seen, *rest] == ["the ground"] else "are"
+    return f"only {join_words([*seen, *rest])} {verb} in view"
 
 
 def _is_shared(scene: ComposedScene, times: Sequence[float]) -> bool:

@@ -63,7 +63,7 @@ class EmitterStyle:
     is_oval: bool = False
     """Whether flakes are oval, as leaves are, not pieces of paper."""
     widest_rad: float = math.inf
-    """Greatest half extent of flakes in the image: in life they are smaller than is seen far off."""
+    """Greatest half extent of flakes in the image: in life they are smaller than those far off."""
     colours: tuple[Colour, ...] = ()
     """Colours of media at birth and at the end; of solid bodies those that occur, none = those of
     the object."""

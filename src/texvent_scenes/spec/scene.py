@@ -281,8 +281,9 @@ class Place:
     """Ground, sky and weather around the objects."""
 
     name: Annotated[str, Word("place")] | None = None
-    """Place, such as "road", "kitchen" or "plain" (an even ground); left out: the usual one of the
-    objects."""
+    """Place, such as "road", "kitchen" or "plain" (an even ground: no grain gives events); left
+    out: the usual one of the objects. Bays of a car park lie around the vehicles that stand
+    there."""
     colour: Surface | None = None
     """Colour of an even ground."""
     sky: Surface | None = None

@@ -16,7 +16,7 @@ from texvent_scenes.models.protocol import Pose
 from texvent_scenes.models.shapes import bounds
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.scene_input import list_nouns, understand
-from texvent_scenes.spec.scene import Camera, Place, SceneObject
+from texvent_scenes.spec.scene import Camera, CameraMove, Place, SceneObject
 from texvent_scenes.staged_prompt import stage
 from texvent_scenes.staging.compose import compose_scene
 
@@ -95,6 +95,18 @@ def test_who_is_far_away_or_wears_nothing_shows_no_clothes(clothes):
     framing = replace(scene.camera_path.framing, distance_m=150.0)
     far = replace(scene, camera_path=replace(scene.camera_path, framing=framing))
     assert [*find_unworn(far, said, [0.5])] == [1]
+
+
+@pytest.mark.parametrize("clothes", ["jacket", "sweater", "hoodie"])
+@pytest.mark.parametrize("way", ["in", "out"])
+def test_clothes_are_seen_that_are_near_for_a_part_of_the_clip(clothes, way):
+    start_m, end_m = (-23.0, -6.0)[:: 1 if way == "in" else -1]
+    move = CameraMove("dolly", way, speed_m_s=8.5)
+    camera = Camera(position_m=(0.0, start_m, 1.4), look_at_m=(0.0, 30.0, 1.4), moves=(move,))
+    said, scene, found = unworn(clothes, camera=camera)
+    assert scene.camera(DURATION_S).position[1] == pytest.approx(end_m, abs=0.3)
+    assert found == []
+    assert [*find_unworn(scene, said, [0.0 if way == "in" else DURATION_S])] == [1]
 
 
 @pytest.mark.parametrize(("clothes", "is_shown"), [("jacket", True), ("glove", False),

@@ -11,11 +11,12 @@ from texvent_scenes.checks.edges import find_cut_subject, find_merged, list_cove
 from texvent_scenes.checks.pictures import find_unshown
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.effects import EFFECTS
-from texvent_scenes.models.places import PLACES
+from texvent_scenes.models.places import PLACES, list_telling
 from texvent_scenes.raycast.render import render
 from texvent_scenes.spec.scene import Effect, Place
 from texvent_scenes.staging.actors import assemble
 from texvent_scenes.staging.compose import compose_scene
+from texvent_scenes.words import list_plurals
 
 TIMES_S = [0.2 * DURATION_S, 0.8 * DURATION_S]
 ROOMS = [name for name, one in PLACES.items() if one.is_room and one.scenery]
@@ -36,6 +37,22 @@ def test_a_room_is_shown_with_its_furniture_and_not_by_bare_walls(room):
     assert ("place" in lost(said, scene)) == (room in SMALL)
     if room not in TELLING:
         assert "place" in lost(said, replace(scene, still=assemble([]), scenery=()))
+
+
+@for_every([one for one in ROOMS if one not in TELLING])
+def test_a_line_on_a_room_says_what_of_it_is_in_view(room):
+    said, scene = stage_text(f"a man stands in a {PLACES[room].names[0]}")
+    kept = tuple(one for one in scene.scenery if one.rule.noun not in list_telling(room))
+    bare = replace(scene, scenery=kept, still=assemble([one.place() for one in kept]))
+    seen = {one.rule.noun for one in kept if any(one.share_of(scene.camera(t)) for t in TIMES_S)}
+    for line in (
+        one.line for one in find_unshown(bare, said, TIMES_S) if one.kind == "place" and one.line
+    ):
+        named = line.partition(" only ")[2].partition("walls")[0]
+        assert {*filter(None, named.split(", "))} <= {list_plurals(one)[0] for one in seen}
+        assert named or not any(
+            one.share_of(scene.camera(t)) > 0.01 for one in kept for t in TIMES_S
+        )
 
 
 BARE = ("bedroom", "factory", *SMALL)

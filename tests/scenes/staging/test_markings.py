@@ -1,4 +1,4 @@
-"""Lines on the ground fit what stands and goes there; halls, even grounds and flakes look their part."""
+"""Lines on the ground fit what stands there; halls, even grounds and flakes look their part."""
 
 import itertools
 import math
@@ -74,7 +74,8 @@ def foot(one: Actor, time_s: float) -> np.ndarray:
 
 @given(
     noun=st.sampled_from(VEHICLES), heading=st.integers(0, 359),
-    x=st.floats(-30.0, 30.0), y=st.floats(-30.0, 30.0), way=st.sampled_from((None, "forward", "backward")),
+    x=st.floats(-30.0, 30.0), y=st.floats(-30.0, 30.0),
+    way=st.sampled_from((None, "forward", "backward")),
 )  # fmt: skip
 def test_a_vehicle_that_stands_or_leaves_touches_no_line_of_its_bay(noun, heading, x, y, way):
     moves = (Motion("stand"),)
@@ -92,7 +93,9 @@ def test_a_vehicle_that_stands_or_leaves_touches_no_line_of_its_bay(noun, headin
     gap=st.floats(0.5, 9.0), along=st.floats(-8.0, 8.0), turn=st.sampled_from((0, 180, 90, 30)),
 )  # fmt: skip
 def test_where_no_row_of_bays_fits_all_vehicles_a_line_says_so(first, second, gap, along, turn):
-    aside = gap + 0.5 * sum(NOUNS[one].build(colour=None, scale=1.0, seed=0).width for one in (first, second))
+    aside = gap + 0.5 * sum(
+        NOUNS[one].build(colour=None, scale=1.0, seed=0).width for one in (first, second)
+    )
     objects = (
         replace(thing(first, ("stand",)), position_m=(0.0, 0.0), heading_deg=90.0),
         replace(thing(second, ("stand",)), position_m=(aside, along), heading_deg=90.0 + turn),
@@ -120,7 +123,10 @@ def test_parked_cars_of_a_place_stand_in_its_bays(row):
 def test_every_train_is_on_rails(y, turn, aside):
     angle = math.radians(turn)
     places = [(0.0, y), (-aside * math.sin(angle), y + aside * math.cos(angle))]
-    trains = [replace(thing("train", ("drive",)), position_m=one, heading_deg=float(turn)) for one in places]
+    trains = [
+        replace(thing("train", ("drive",)), position_m=one, heading_deg=float(turn))
+        for one in places
+    ]
     scene = compose(*trains, place=Place("railway"))
     tracks = [one for one in scene.scenery if one.rule.noun == "railway track"]
     for one in scene.actors:
@@ -138,7 +144,25 @@ def test_a_runner_has_a_lane(y, heading):
     lines = [one for one in rectangles(scene, "running lanes") if np.ptp(one, axis=0).min() < 1.0]
     spot = scene.actors[0].middle(0.0)[:2]
     square = spot + 0.35 * np.array([[1, 1], [1, -1], [-1, -1], [-1, 1]])
-    assert lines and not any(meet(square, line) for line in lines)
+    assert lines
+    assert not any(meet(square, line) for line in lines)
+
+
+@given(
+    x=st.floats(-20.0, 20.0), y=st.floats(-20.0, 20.0), heading=st.integers(0, 359),
+    row=st.sampled_from([("goal", "stadium", "pitch lines"),
+                         ("basketball hoop", "basketball court", "basketball court lines")]),
+)  # fmt: skip
+def test_a_goal_stands_on_the_line_behind_which_a_ball_is_in(x, y, heading, row):
+    noun, place, marks = row
+    goal = replace(thing(noun, ("stand",)), position_m=(x, y), heading_deg=float(heading))
+    scene = compose(goal, place=Place(place))
+    (lines,) = (one for one in scene.scenery if one.rule.noun == marks)
+    spot = scene.actors[0].middle(0.0)[:2]
+    ends = [line.mean(axis=0) for line in rectangles(scene, marks)]
+    assert min(float(np.hypot(*(one - spot))) for one in ends) < 0.05
+    towards = np.array(lines.position) - spot
+    assert towards @ [math.cos(math.radians(heading)), math.sin(math.radians(heading))] > 0.0
 
 
 @pytest.mark.parametrize("colour", [None, "white", "red"])
@@ -149,14 +173,26 @@ def test_the_plain_ground_is_even(colour, light):
     scene = compose(ball, place=Place("plain", colour=colour), camera=camera, light=Light(light))
     picture = render(scene, 0.0, SIZE, samples=1, shadows=False)[SIZE.height // 2 :]
     level = np.log(np.asarray(picture, dtype=np.float64).max(axis=-1) + 1.0)
-    grain = level[1:-1, 1:-1] - 0.25 * (level[2:, 1:-1] + level[:-2, 1:-1] + level[1:-1, 2:] + level[1:-1, :-2])
+    grain = level[1:-1, 1:-1] - 0.25 * (
+        level[2:, 1:-1] + level[:-2, 1:-1] + level[1:-1, 2:] + level[1:-1, :-2]
+    )
     assert np.percentile(np.abs(grain), 99.0) < 0.03
     assert np.ptp(np.percentile(level, [5.0, 95.0])) < 0.35
 
 
-@for_every([kind for kind, one in EFFECTS.items() if any(math.isfinite(e.widest_rad) for e in one.emitters)])
+@for_every(
+    [
+        kind
+        for kind, one in EFFECTS.items()
+        if any(math.isfinite(e.widest_rad) for e in one.emitters)
+    ]
+)
 def test_flakes_that_stand_for_smaller_ones_are_small_before_the_lens(kind):
-    said = Place("grass", weather=kind, is_empty=True) if kind == "snow" else Place("grass", is_empty=True)
+    said = (
+        Place("grass", weather=kind, is_empty=True)
+        if kind == "snow"
+        else Place("grass", is_empty=True)
+    )
     effects = () if kind == "snow" else (kind,)
     description = SceneDescription(effects=tuple(map(Effect, effects)), place=said)
     scene = compose_scene(description, seed=1, size=SIZE, duration_s=DURATION_S)
@@ -176,8 +212,10 @@ HALLS = [name for name, one in PLACES.items() if one.hall_m]
 def test_a_hall_is_high_and_large_whatever_is_in_it(name):
     scene = compose(thing("cat", ("walk", "left")), place=Place(name))
     seen = scene.environment(0.0)
-    assert seen.ground is Ground.FLOOR and seen.is_hall
-    assert seen.room_half_size >= PLACES[name].hall_m and seen.ceiling_m >= 4.0
+    assert seen.ground is Ground.FLOOR
+    assert seen.is_hall
+    assert seen.room_half_size >= PLACES[name].hall_m
+    assert seen.ceiling_m >= 4.0
 
 
 KIN = {"marble": "stone", "brass": "metal", "striped": "stripes", "checkered": "checks"}

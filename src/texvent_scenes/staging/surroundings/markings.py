@@ -36,7 +36,7 @@ class Cells(NamedTuple):
     width_m: float
     length_m: float
     """0 = lanes without ends."""
-    count: int
+    number: int
 
 
 class Laid(NamedTuple):
@@ -87,8 +87,8 @@ def lay_lines(noun: str, usual: Laid, actors: Sequence[Actor], view: ViewClearan
     """Places of the lines of a noun.
 
     Rails lie under each train, a runway under what lands on it, bays around vehicles that rest,
-    else beside the way of one; lanes have the first body in the middle of one. Other lines have
-    their usual place.
+    else beside the way of one; lanes have the first body in the middle of one; a pitch has its goal
+    on its line. Other lines have their usual place.
     """
     if noun in nouns_with("rails") and any(zone_of(one.noun) == "rails" for one in actors):
         return _lay_rails([one for one in actors if zone_of(one.noun) == "rails"])
@@ -97,6 +97,12 @@ def lay_lines(noun: str, usual: Laid, actors: Sequence[Actor], view: ViewClearan
         ends = [lander.middle(time_s)[:2] for time_s in (0.0, view.clip_s)]
         x, y = np.mean(ends, axis=0)
         return [Laid((float(x), float(y)), lander.track.at(0.0).yaw)]
+    for one in actors:
+        row = trait_value("on lines", one.noun.name)
+        if row is not None and row[0] == noun and one.track.anchor is None:
+            x, y, _ = map(float, one.middle(0.0))
+            own = Laid((x, y), one.track.at(0.0).yaw)
+            return [Laid(own.point(float(row[1]), 0.0), own.angle)]
     cells = cells_of(noun)
     if cells is None or not actors:
         return [usual]
@@ -124,7 +130,7 @@ def _lay_rails(trains: Sequence[Actor]) -> list[Laid]:
 def _centre_lane(cells: Cells, usual: Laid, actors: Sequence[Actor]) -> Laid:
     """The lines moved aside, so that the first body is in the middle of a lane."""
     (place,) = usual.see(actors[0].middle(0.0)[None])
-    lane = float(place[1]) / cells.width_m - 0.5 * (cells.count + 1)
+    lane = float(place[1]) / cells.width_m - 0.5 * (cells.number + 1)
     return Laid(usual.point(0.0, cells.width_m * (lane - round(lane))), usual.angle)
 
 
@@ -173,10 +179,10 @@ def _fit_row(cells: Cells, first: _Stay, stays: Sequence[_Stay], going: Sequence
     along, aside, half_length, half_width = beside.T
     numbers = np.round(aside / width)
     is_in = np.abs(aside - width * numbers) + half_width + _CLEAR_M < 0.5 * width
-    is_in &= np.abs(numbers) < cells.count
+    is_in &= np.abs(numbers) < cells.number
     is_in[0] = True
     numbers = numbers[is_in]
-    left = math.floor(0.5 * float(numbers.min() + numbers.max())) + 0.5 * (cells.count % 2 == 0)
+    left = math.floor(0.5 * float(numbers.min() + numbers.max())) + 0.5 * (cells.number % 2 == 0)
     low = float((along - half_length)[is_in].min())
     high = float((along + half_length)[is_in].max())
     depth = width / cells.width_m * cells.length_m
@@ -206,7 +212,7 @@ def _choose_width(cells: Cells, beside: Float64Array) -> float:
     aside, half_width = beside[:, 1], beside[:, 3]
     least = max(_WIDTHS[0] * cells.width_m, 2.0 * (float(half_width[0]) + _DOOR_M))
     most = max(least, _WIDTHS[1] * cells.width_m)
-    exact = (np.abs(aside[:, None]) / np.arange(1, cells.count)).ravel()
+    exact = (np.abs(aside[:, None]) / np.arange(1, cells.number)).ravel()
     widths = [max(cells.width_m, least), *np.arange(least, most, _STEP_M)]
     widths += [*exact[(exact > least) & (exact < most)]]
 
@@ -244,13 +250,13 @@ def _beside_way(cells: Cells, one: Actor, view: ViewClearance) -> Laid:
 
 def _half_extents(cells: Cells, row: Laid) -> Float64Array:
     """[2] half the length and half the width of a row, m."""
-    return 0.5 * row.scale * np.array([cells.length_m, cells.count * cells.width_m])
+    return 0.5 * row.scale * np.array([cells.length_m, cells.number * cells.width_m])
 
 
 def _overlap(cells: Cells, one: Laid, other: Laid) -> bool:
     """Whether two rows of bays lie on each other."""
     half = _half_extents(cells, one)
-    steps = [np.linspace(-each, each, 2 * cells.count + 1) for each in half]
+    steps = [np.linspace(-each, each, 2 * cells.number + 1) for each in half]
     points = np.stack(np.meshgrid(*steps), axis=-1).reshape(-1, 2)
     ground = np.array([one.point(*place) for place in points])
     return bool((np.abs(other.see(ground)) < _half_extents(cells, other)).all(axis=1).any())
@@ -266,7 +272,7 @@ def list_rows(items: Sequence[SceneryItem]) -> Iterator[tuple[Cells, Laid]]:
 
 def list_bays(cells: Cells, row: Laid) -> Float64Array:
     """[n, 2] places of the middles of a row's bays, in its axes, m."""
-    numbers = np.arange(cells.count) - 0.5 * (cells.count - 1)
+    numbers = np.arange(cells.number) - 0.5 * (cells.number - 1)
     return np.stack([0.0 * numbers, row.scale * cells.width_m * numbers], axis=1)
 
 

@@ -330,11 +330,6 @@ class _Scatterer:
         is_near = (corners.min(axis=1) < half) & (corners.max(axis=1) > -half)
         return bool(is_near.all(axis=1).any())
 
-    def _is_on_bays(self, item: SceneryItem) -> bool:
-        """Whether a piece stands on bays, which only vehicles do."""
-        rows = list_rows(self.items)
-        return any(not is_off(*row, item.position, item.radius_m) for row in rows)
-
     def _is_free(self, item: SceneryItem) -> bool:
         """Whether an item has room, hides nothing, and stands where it may: on land or afloat."""
         spot, radius, view = np.array(item.position), item.radius_m, self._view
@@ -354,7 +349,9 @@ class _Scatterer:
         if self._meets_body(item, deep):
             return False
         is_parked = item.rule.where == "bays"
-        if not is_parked and self._is_on_bays(item):
+        if not (
+            is_parked or all(is_off(*row, item.position, radius) for row in list_rows(self.items))
+        ):
             return False
         others = (one for one in self.items
                   if not one.is_flat and not (is_parked and one.rule.where == "bays"))  # fmt: skip
