@@ -92,7 +92,9 @@ def test_a_vehicle_that_stands_or_leaves_touches_no_line_of_its_bay(noun, headin
     gap=st.floats(0.5, 9.0), along=st.floats(-8.0, 8.0), turn=st.sampled_from((0, 180, 90, 30)),
 )  # fmt: skip
 def test_where_no_row_of_bays_fits_all_vehicles_a_line_says_so(first, second, gap, along, turn):
-    aside = gap + 0.5 * sum(NOUNS[one].build(colour=None, scale=1.0, seed=0).width for one in (first, second))
+    aside = gap + 0.5 * sum(
+        NOUNS[one].build(colour=None, scale=1.0, seed=0).width for one in (first, second)
+    )
     objects = (
         replace(thing(first, ("stand",)), position_m=(0.0, 0.0), heading_deg=90.0),
         replace(thing(second, ("stand",)), position_m=(aside, along), heading_deg=90.0 + turn),
@@ -120,7 +122,10 @@ def test_parked_cars_of_a_place_stand_in_its_bays(row):
 def test_every_train_is_on_rails(y, turn, aside):
     angle = math.radians(turn)
     places = [(0.0, y), (-aside * math.sin(angle), y + aside * math.cos(angle))]
-    trains = [replace(thing("train", ("drive",)), position_m=one, heading_deg=float(turn)) for one in places]
+    trains = [
+        replace(thing("train", ("drive",)), position_m=one, heading_deg=float(turn))
+        for one in places
+    ]
     scene = compose(*trains, place=Place("railway"))
     tracks = [one for one in scene.scenery if one.rule.noun == "railway track"]
     for one in scene.actors:
@@ -149,14 +154,26 @@ def test_the_plain_ground_is_even(colour, light):
     scene = compose(ball, place=Place("plain", colour=colour), camera=camera, light=Light(light))
     picture = render(scene, 0.0, SIZE, samples=1, shadows=False)[SIZE.height // 2 :]
     level = np.log(np.asarray(picture, dtype=np.float64).max(axis=-1) + 1.0)
-    grain = level[1:-1, 1:-1] - 0.25 * (level[2:, 1:-1] + level[:-2, 1:-1] + level[1:-1, 2:] + level[1:-1, :-2])
+    grain = level[1:-1, 1:-1] - 0.25 * (
+        level[2:, 1:-1] + level[:-2, 1:-1] + level[1:-1, 2:] + level[1:-1, :-2]
+    )
     assert np.percentile(np.abs(grain), 99.0) < 0.03
     assert np.ptp(np.percentile(level, [5.0, 95.0])) < 0.35
 
 
-@for_every([kind for kind, one in EFFECTS.items() if any(math.isfinite(e.widest_rad) for e in one.emitters)])
+@for_every(
+    [
+        kind
+        for kind, one in EFFECTS.items()
+        if any(math.isfinite(e.widest_rad) for e in one.emitters)
+    ]
+)
 def test_flakes_that_stand_for_smaller_ones_are_small_before_the_lens(kind):
-    said = Place("grass", weather=kind, is_empty=True) if kind == "snow" else Place("grass", is_empty=True)
+    said = (
+        Place("grass", weather=kind, is_empty=True)
+        if kind == "snow"
+        else Place("grass", is_empty=True)
+    )
     effects = () if kind == "snow" else (kind,)
     description = SceneDescription(effects=tuple(map(Effect, effects)), place=said)
     scene = compose_scene(description, seed=1, size=SIZE, duration_s=DURATION_S)
