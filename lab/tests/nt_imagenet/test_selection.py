@@ -62,5 +62,11 @@ def test_speed_is_that_of_an_edge_in_any_direction():
         columns = (x.ravel()[order], y.ravel()[order], t, np.ones(x.size, int))
         edge = EventStream(*columns, size)
         assert median_speed(edge) == pytest.approx(np.hypot(dx, dy), rel=1e-3)
+        # What fires at once beside the edge, as by a lamp, does not move.
+        flash = EventStream(*(one[edge.y < 20] for one in columns), size)
+        late = np.full((10, 40), flash.t[-1] + 1)
+        lit = EventStream(x[20:].ravel(), y[20:].ravel(), late.ravel(), late.ravel() > 0, size)
+        both = EventStream.concat([flash, lit])
+        assert median_speed(both) == pytest.approx(np.hypot(dx, dy), rel=1e-2)
     assert math.isnan(median_speed(EventStream.empty(size)))
     assert math.isnan(median_speed(EventStream([1, 2], [1, 1], [0, 5], [1, 1], size)))

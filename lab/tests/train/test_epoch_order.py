@@ -1,8 +1,9 @@
-"""The order of an epoch: every sample once, the same everywhere, another in every epoch."""
+"""Epochs: every sample once, in the same order everywhere, another in each; decay of the rate."""
 
 import numpy as np
+import pytest
 
-from texvent_lab.train.schedule import epoch_order
+from texvent_lab.train.schedule import Schedule, epoch_order
 
 
 def test_orders_differ_by_epoch_and_seed_and_are_pinned():
@@ -20,3 +21,13 @@ def test_every_place_is_as_likely():
     counts = np.bincount(first, minlength=4)
     # Four places, 4000 draws: sd 27; five of them.
     assert np.abs(counts - 1000).max() < 137
+
+
+@pytest.mark.parametrize("epochs", [1, 2, 7, 30])
+def test_a_cosine_decay_falls_from_1_to_what_is_0_after_the_last_epoch(epochs):
+    one = Schedule(epochs=epochs, decay="cosine")
+    found = [one.factor(epoch) for epoch in range(epochs + 1)]
+    assert (found[0], found[-1]) == (1.0, 0.0)
+    assert all(np.diff(found) < 0.0)
+    np.testing.assert_allclose(np.add(found, found[::-1]), 1.0)  # half a cosine is odd there
+    assert {Schedule(epochs=epochs).factor(epoch) for epoch in range(epochs)} == {1.0}

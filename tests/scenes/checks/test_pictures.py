@@ -15,6 +15,7 @@ from texvent_scenes.models.places import PLACES, list_telling
 from texvent_scenes.raycast.render import render
 from texvent_scenes.spec.scene import Effect, Place
 from texvent_scenes.staging.actors import assemble
+from texvent_scenes.staging.camera.framing import look_at
 from texvent_scenes.staging.compose import compose_scene
 from texvent_scenes.words import list_plurals
 
@@ -115,6 +116,18 @@ def test_copies_of_which_one_stands_before_the_other_are_counted_as_they_are_see
     away = 0.01 * cameras[0].rotation[2]
     merged = moved(scene, scene.actors[1], np.subtract(first, second) + away)
     assert [*find_merged(merged, said, cameras, FIVE_S, SIZE)] == [(0, 1)]
+
+
+@pytest.mark.parametrize("noun", ["sheep", "cups", "cars"])
+@pytest.mark.parametrize(("often", "told"), [(1, []), (2, []), (3, [(0, 1)]), (5, [(0, 1)])])
+def test_copies_are_one_where_they_are_for_most_of_the_clip(noun, often, told):
+    said, scene = stage_text(f"two {noun} stand")
+    usual, first = scene.camera(0.0), scene.actors[0].middle(0.0)
+    beside = 0.6 * scene.actors[0].size_m * usual.rotation[0]
+    scene = moved(scene, scene.actors[1], first + beside - scene.actors[1].middle(0.0))
+    along = look_at(first - 50.0 * beside, first, 20.0 * usual.focal)
+    cameras = [along] * often + [usual] * (5 - often)
+    assert [*find_merged(scene, said, cameras, FIVE_S, SIZE)] == told
 
 
 @pytest.mark.parametrize(("points", "is_told"), [(60, False), (300, True)])

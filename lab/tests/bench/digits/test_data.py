@@ -123,6 +123,14 @@ def test_images_of_a_sheet_are_those_of_its_digits():
             assert image.any()
 
 
+@pytest.mark.parametrize("count", [1, 255, 256, 700])
+def test_counts_of_events_are_whole_and_their_images_end_at_white(count):
+    columns = np.full(count, 3), np.full(count, 2), np.arange(count), np.ones(count, int)
+    images, counts = represent_all(EventStream(*columns, SensorSize(34, 34)))
+    assert counts[:, 2, 3].tolist() == [0, count]
+    assert images["histogram"].max() == images["histogram"][:, 2, 3].sum() == min(count, 255)
+
+
 def test_recordings_laid_out_on_a_sheet_keep_their_events():
     sheet = DigitSheet(Digits.as_measured(figures(3, 0)))
     recorded = record(figures(3, 0))

@@ -105,3 +105,23 @@ def test_the_consistency_of_a_window_is_with_the_one_before_along_its_own_flow()
     options = ReconstructionLoss(lpips=0, l1=1.0, consistency=1.0, consistency_from=1)
     assert SequenceLoss(options, None)(moving, moving, flow).item() < 1e-9
     assert SequenceLoss(options, None)(moving, moving, flow.flip(1)).item() > 0.01
+
+
+@pytest.mark.parametrize("begin", [1, 2, 3])
+def test_the_consistency_is_a_mean_over_all_images_whichever_it_begins_with(begin):
+    shown, true = (
+        torch.from_numpy(images(8, 20, 24, seed=seed)).reshape(2, 4, 1, 20, 24) for seed in (1, 2)
+    )
+    flow = torch.zeros(2, 4, 2, 20, 24)
+    weights = {"lpips": 0, "l1": 1.0, "consistency_from": begin, "consistency_alpha": 0.5}
+    with_it, without = (
+        SequenceLoss(ReconstructionLoss(**weights, consistency=one), None)(shown, true, flow)
+        for one in (2.0, 0.0)
+    )
+    pairs = [
+        [one[:, window - 1 : window + 1].transpose(0, 1) for one in (shown, true)]
+        for window in range(begin, 4)
+    ]
+    total = sum(inconsistency(*pair, flow[:, 0], alpha=0.5).sum() for pair in pairs)
+    assert (with_it - without).item() == pytest.approx(2.0 * total.item() / 8, rel=1e-5)
+    assert total > 0
