@@ -309,7 +309,7 @@ def test_models_of_the_user_are_in_the_scene_that_a_video_follows(tmp_path):
     assert "magic wand" in generator._steering.scene.class_names.values()
     assert "files" in generator._request_facts()
     bare = part(dataclasses.replace(config, assets=None), seed=0, size=None)
-    with pytest.raises(InputError, match="nothing in the prompt was understood: magic, wand"):
+    with pytest.raises(InputError, match="nothing in the prompt was understood: magic wand"):
         bare.draw("a magic wand moves left")
 
 

@@ -86,7 +86,7 @@ def finish(draft: SceneDraft, prompt: str) -> Reading:
 
 
 def _decide(draft: SceneDraft, token: Token, after: Token) -> str:
-    """What becomes of a token in the end; "" where there is nothing to tell of it."""
+    """Fate of a token in the end; "" where there is nothing to tell of it."""
     is_open = token.is_sign or token.is_grammar
     is_open |= token.text == "to" and bool(after.verbs("base"))  # "starts to spin"
     is_begun = token.text in word_set("things", "aspects")

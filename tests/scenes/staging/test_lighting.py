@@ -17,7 +17,16 @@ from texvent_scenes.models.protocol import ModelPart
 from texvent_scenes.raycast.render import render
 from texvent_scenes.rendered_scene import Shape
 from texvent_scenes.scene_input import describe_scene, list_nouns, understand
-from texvent_scenes.spec.scene import Camera, Lamp, Light, Motion, Place, Scene, SceneObject
+from texvent_scenes.spec.scene import (
+    Camera,
+    CameraMove,
+    Lamp,
+    Light,
+    Motion,
+    Place,
+    Scene,
+    SceneObject,
+)
 from texvent_scenes.staging.compose import compose_scene
 from texvent_scenes.staging.surroundings.lamps import part_lamp
 from texvent_scenes.staging.surroundings.lighting import choose_lighting, hidden_lamp
@@ -190,7 +199,8 @@ def compose_small(description):
 def seen(place, kind, lamps=(), **fields):
     """Mean light of the picture at .1 and at .6 s."""
     one = SceneObject("box", motions=(Motion("stand"),), **fields)
-    scene = Scene(objects=(one,), light=Light(kind, lamps=lamps), place=Place(place))
+    still = Camera(moves=(CameraMove("static"),))
+    scene = Scene(objects=(one,), camera=still, light=Light(kind, lamps=lamps), place=Place(place))
     composed = compose_small(describe_scene(scene, NOUNS))
     return [float(np.mean(render(composed, time_s, SMALL))) for time_s in (0.1, 0.6)], composed
 
