@@ -118,7 +118,7 @@ def _join_lost(draft: SceneDraft, ends: Sequence[str]) -> None:
             run.append(token)
             continue
         at = token.at if end != "lost" and token.has("noun", "place", "effect", "hollow") else 0
-        while run and run[-1].at == at - 1 and not run[-1].has("relation", "small", "adverb"):
+        while run and run[-1].at == at - 1 and run[-1].at in draft.modifying:
             at = run.pop().at
         draft.join(run)
         run = [token] if is_lost else []

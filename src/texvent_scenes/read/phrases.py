@@ -29,7 +29,7 @@ from texvent_scenes.read.prepositions import (
     names_formation,
     names_sky,
 )
-from texvent_scenes.read.relations import hand_over, relate_one
+from texvent_scenes.read.relations import GROUNDS, hand_over, relate_one
 from texvent_scenes.read.things import name_group
 from texvent_scenes.spec.data import PLACING, SPACED, WAYS
 
@@ -210,7 +210,7 @@ def _relate_all(
     draft: SceneDraft, token: Token, kind: str, subjects: Indices, targets: Indices
 ) -> None:
     """Apply a preposition to all that it is said of."""
-    if token.text in word_set("things", "led_along") and draft.names(targets) <= nouns_with("way"):
+    if token.text in word_set("things", "led_along") and draft.names(targets) <= GROUNDS:
         kind = "on"  # "walks along a pier"
     if handled := hand_over(draft, token, kind, subjects, targets):
         draft.mark(token, handled)

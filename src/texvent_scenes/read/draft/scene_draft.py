@@ -104,6 +104,8 @@ class SceneDraft(Abilities):
     compounds: dict[int, str] = field(default_factory=dict)
     """Number of a token → the words that are told as one: the compound of which it is the head,
     or the phrase with which it is lost."""
+    modifying: set[int] = field(default_factory=set)
+    """Numbers of the tokens that say what a thing is like."""
     before_sky: list[int] = field(default_factory=list)
     """Objects behind which only the sky is seen: "against the sunset"."""
     homes: list[tuple[Token, Token, str]] = field(default_factory=list)

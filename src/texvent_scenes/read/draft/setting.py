@@ -7,7 +7,7 @@ from typing import Any
 
 from texvent_scenes.description import SEEN
 from texvent_scenes.models.nouns import AFLOAT
-from texvent_scenes.models.places import is_room
+from texvent_scenes.models.places import PLACES, is_room
 from texvent_scenes.read.draft.scene_draft import SceneDraft, split_move
 from texvent_scenes.read.parsing.groups import Group
 from texvent_scenes.read.parsing.lexicon import word_set, word_table
@@ -113,7 +113,7 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
     elif not is_it and name in word_set("things", "backdrops") and not is_room(place["name"]):
         far = "city" if name == "skyline" else name
         place["backdrops"] = list(dict.fromkeys([*place.get("backdrops", ()), far]))
-        draft.show(head)
+        draft.show(head, *(one for one in group.modifiers if one.says("adverb", "placement")))
     elif is_room(name) and place.get("name") == "indoor":
         place["name"] = name
         draft.show(head)
@@ -135,9 +135,17 @@ def _say_of_place(draft: SceneDraft, token: Token, name: str, *, is_it: bool) ->
             place |= {"colour": "black", "sky": "black"}
     elif field == "colour" and is_it and not is_room(name):
         place["sky" if name == "sky" else "colour"] = value
-    elif not (token.has("partitive") or set_scene(draft, token) or name in _true_of(token)):
+    elif not (token.has("partitive") or _is_so_large(token, name)
+              or set_scene(draft, token) or name in _true_of(token)):  # fmt: skip
         return
     draft.show(token)
+
+
+def _is_so_large(token: Token, name: str) -> bool:
+    """Whether a size is that of a place: "a large warehouse", "a small kitchen", "a huge lake"."""
+    field, size = token.value("field")
+    is_large = PLACES[name].hall_m > 0.0 or name in word_table("inherent")["wide"]
+    return field == "size" and (is_large if size > 1.0 else is_room(name) and not is_large)
 
 
 def _true_of(token: Token) -> Sequence[str]:

@@ -160,7 +160,10 @@ class GroupReader:
     def _starts_group(self, ahead: int = 0) -> bool:
         token, after = self._token(ahead), self._token(ahead + 1)
         if token.has("articles"):
-            return not (after.text.endswith("camera") or after.has("camera") or after.is_sign)
+            is_back = token.has("pronouns") and after.text.endswith("ly")  # "circles her slowly"
+            is_back &= not self._starts_group(ahead + 2)
+            is_end = after.text.endswith("camera") or after.has("camera") or after.is_sign
+            return not (is_end or is_back)
         is_view = token.has("shot") and not token.has("noun", "place")
         is_alone = is_view or token.text.startswith(_PREPOSITIONS)  # "aerial view", "at night"
         if token.has(*_STANDPOINTS) or token.is_sign or is_alone:
