@@ -91,6 +91,8 @@ def _choose_placed(
         bearers = word_set("things", "laden") - word_set("things", "tables")
         if others and others <= PERSON_NOUNS | word_set("things", "vessels") | bearers:
             return draft.last.nearest  # "passes a man with a suitcase", "carries a tray with cups"
+    if kind == "with" and _is_of_place(draft, phrase):
+        return []
     if before == "with" and told and kind in PLACING and draft.beside(last, -1).has("place"):
         return told  # "in a room with candles on the table"
     if kind == "on" and draft.names(told) <= word_set("things", "flames"):
@@ -113,6 +115,14 @@ def _choose_placed(
     goes_off = draft.names(subjects) <= PERSON_NOUNS and any(map(draft.goes, subjects))
     is_passed |= before == "from" and goes_off  # "walks away from a bag on a chair"
     return told if kind in PLACING and is_passed else subjects
+
+
+def _is_of_place(draft: SceneDraft, phrase: Phrase) -> bool:
+    """Whether it names what a place has that stays there: "a room with blue walls"."""
+    nouns = {*nouns_of(phrase.groups)}
+    is_fixed = bool(nouns) and nouns.isdisjoint(nouns_with("in hand or on something"))
+    is_fixed &= all(draft.nouns[one].habitat == "fixed" for one in nouns)
+    return is_fixed and draft.beside(phrase.preposition, -1).has("place")
 
 
 def _find_aimed(draft: SceneDraft, phrase: Phrase, last: Token, subjects: Indices) -> list[int]:
@@ -169,7 +179,8 @@ def apply_phrase(draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: In
         draft.show(token)
     elif kind and (subjects or kind != "with"):  # "an office with a desk"
         _relate_all(draft, token, kind, subjects, targets)
-    is_lone = not targets or (kind == "with" and bool(subjects or moved or not draft.last.has_verb))
+    is_lone = bool(subjects or moved or not draft.last.has_verb) or _is_of_place(draft, phrase)
+    is_lone = not targets or (kind == "with" and is_lone)
     if is_lone and any(map(draft.shows, words_of(phrase.groups))):
         draft.show(token)
     return targets

@@ -111,7 +111,7 @@ def _name_others(draft: SceneDraft, group: Group, relation: str, owners: Indices
         marks = word_set("things", "marks") if is_mark else ()
         if not set_scene(draft, token) and effect and effect.value not in marks:
             draft.add_effect(token, effect.value, owners)
-            draft.show_inherent(group.words, effect.value)
+            draft.show_inherent((draft.beside(token, -1), *group.words), effect.value)
 
 
 def _find_whole(draft: SceneDraft, group: Group) -> Group | None:

@@ -108,9 +108,15 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
         _fill_place(draft, token, (head.text, name))
     set_scene(draft, head)
     is_said = bool(group.modifiers) and relation not in ("in", "on", "through")
+    is_left = relation in ("out of", "from") and any(
+        one.text in ("onto", "into", "across") and _leads_to_place(draft, one)
+        for one in draft.tokens[head.at : head.at + 3]
+    )  # "out of a forest onto a road"
     if name == "sky" and not relation and "name" not in place and _is_overhead(draft):
         draft.show(head)
-    elif not is_it and name in word_set("things", "backdrops") and not is_room(place["name"]):
+    elif name in word_set("things", "backdrops") and (
+        is_left if is_it else not is_room(place["name"])
+    ):
         far = "city" if name == "skyline" else name
         place["backdrops"] = list(dict.fromkeys([*place.get("backdrops", ()), far]))
         draft.show(head, *(one for one in group.modifiers if one.says("adverb", "placement")))
@@ -126,9 +132,17 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
             set_place(draft, Group(token), token, "in")
 
 
+def _leads_to_place(draft: SceneDraft, preposition: Token) -> bool:
+    """Whether a place follows a preposition, with an article and an adjective at most."""
+    return any(draft.beside(preposition, step).has("place") for step in (1, 2, 3))
+
+
 def _say_of_place(draft: SceneDraft, token: Token, name: str, *, is_it: bool) -> None:
     """Apply an adjective of a place: a colour, "dark" or a word of light and weather."""
     place, (field, value) = draft.parts["place"], token.value("field")
+    if any(one.value[1:] == ("name", "indoor") for one in token.all("scene")):
+        draft.mark(token, "shown" if is_room(name) else "lost")  # "an indoor pool" is outside
+        return
     if token.text == "dark":
         draft.parts["light"].setdefault("kind", "night")
         if name == "plain":
