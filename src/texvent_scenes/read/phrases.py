@@ -91,8 +91,6 @@ def _choose_placed(
         bearers = word_set("things", "laden") - word_set("things", "tables")
         if others and others <= PERSON_NOUNS | word_set("things", "vessels") | bearers:
             return draft.last.nearest  # "passes a man with a suitcase", "carries a tray with cups"
-    if kind == "with" and _is_of_place(draft, phrase):
-        return []
     if before == "with" and told and kind in PLACING and draft.beside(last, -1).has("place"):
         return told  # "in a room with candles on the table"
     if kind == "on" and draft.names(told) <= word_set("things", "flames"):
@@ -119,10 +117,9 @@ def _choose_placed(
 
 def _is_of_place(draft: SceneDraft, phrase: Phrase) -> bool:
     """Whether it names what a place has that stays there: "a room with blue walls"."""
-    nouns = {*nouns_of(phrase.groups)}
-    is_fixed = bool(nouns) and nouns.isdisjoint(nouns_with("in hand or on something"))
-    is_fixed &= all(draft.nouns[one].habitat == "fixed" for one in nouns)
-    return is_fixed and draft.beside(phrase.preposition, -1).has("place")
+    before = draft.beside(phrase.preposition, -1)
+    is_fixed = all(draft.nouns[one].habitat == "fixed" for one in nouns_of(phrase.groups))
+    return is_fixed and before.has("place") and draft.shows(before)
 
 
 def _find_aimed(draft: SceneDraft, phrase: Phrase, last: Token, subjects: Indices) -> list[int]:
@@ -179,10 +176,11 @@ def apply_phrase(draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: In
         draft.show(token)
     elif kind and (subjects or kind != "with"):  # "an office with a desk"
         _relate_all(draft, token, kind, subjects, targets)
-    is_lone = bool(subjects or moved or not draft.last.has_verb) or _is_of_place(draft, phrase)
-    is_lone = not targets or (kind == "with" and is_lone)
+    is_lone = not targets or (kind == "with" and bool(subjects or moved or not draft.last.has_verb))
     if is_lone and any(map(draft.shows, words_of(phrase.groups))):
         draft.show(token)
+    if kind == "with" and targets and _is_of_place(draft, phrase):
+        draft.mark(token, "shown")
     return targets
 
 

@@ -208,7 +208,7 @@ def goes_over(draft: SceneDraft, token: Token, subjects: Indices) -> bool:
 def _shows_way(draft: SceneDraft, token: Token, place: PlaceModel, subjects: Indices) -> bool:
     """Whether a place shows a preposition: no "towards a park", "by a forest"."""
     kinds = token.relations
-    if token.text in ("across", "down", "up"):
+    if token.text in ("across", "around", "down", "up"):
         return not subjects or any(draft.things[one]["motions"] for one in subjects)
     if "above" in kinds:
         is_high = not any(map(draft.keeps_to_ground, subjects))
@@ -306,7 +306,10 @@ def dress(draft: SceneDraft, phrase: Phrase, subjects: Indices) -> bool:
 
 def is_rained_on(draft: SceneDraft, token: Token, kind: str) -> bool:
     """Whether weather or leaves come down on something, as on all: "snow falls on a car"."""
-    return comes_down(draft.beside(token, -1)) and kind in _RAINED_ON
+    before = draft.beside(token, -1)
+    places = {one.value for each in draft.tokens for one in each.all("place")}
+    washes = before.says("scene", "place") and before.text.startswith("wave") and places <= {"sea"}
+    return (comes_down(before) or washes) and kind in _RAINED_ON
 
 
 def is_rained_under(draft: SceneDraft, token: Token, targets: Indices) -> bool:

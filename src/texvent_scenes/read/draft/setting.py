@@ -108,6 +108,8 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
         _fill_place(draft, token, (head.text, name))
     set_scene(draft, head)
     is_said = bool(group.modifiers) and relation not in ("in", "on", "through")
+    is_crossed = "across" in (draft.beside(head, -1).text, draft.beside(head, -2).text)
+    is_crossed &= "name" in place  # the sky above it
     is_left = relation in ("out of", "from") and any(
         one.text in ("onto", "into", "across") and _leads_to_place(draft, one)
         for one in draft.tokens[head.at : head.at + 3]
@@ -123,7 +125,7 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
     elif is_room(name) and place.get("name") == "indoor":
         place["name"] = name
         draft.show(head)
-    elif (name == "sky" and is_said) or (
+    elif (name == "sky" and (is_said or is_crossed)) or (
         place.setdefault("name", name) == name or place["name"] in _true_of(head)
     ):  # "grass" in a park
         draft.mark(head, name if head.text in word_set("things", "stand_ins") else "shown")

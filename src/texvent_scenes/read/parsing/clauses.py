@@ -139,6 +139,10 @@ class _Parser(GroupReader):
         is_passive = token.verbs("ed") and after.text == "by"  # "drives, followed by a van"
         if clause.has_subject and (is_passive or (clause.verb and self._goes_on(clause.verb))):
             return Clause(about="same")
+        goes_on = token.has("relation", "shot") or bool(token.verbs("s"))
+        goes_on |= token.text in word_set("things", "mounted")
+        if clause.about == "camera" and clause.verb is None and goes_on:
+            return Clause(about="camera")  # "the camera, on a tripod, pans left"
         is_part = any(one.picks for one in clause.subjects)
         if is_part and clause.verb is None and token.has("verb"):
             return Clause(about="same")  # "two balls, one red and one blue, collide"

@@ -309,7 +309,8 @@ class GroupReader:
         words, is_one = self._tokens[first : self._at], article in ("a", "an")
         is_other = is_one and any(one.is_unknown for one in words)  # "a six axis robot arm"
         counts = [count for one in words for count in _counts(one) if not is_other]
-        if not senses or not (counts or is_one):
+        is_owned = any(one.text.endswith(("'s", "’s")) for one in words)  # "a man's hands"
+        if not senses or is_owned or not (counts or is_one):
             return True
         after = self._token(ahead + 1)
         is_first = after.has("noun") and not after.has("verb", "relation")  # "two sedan cars"
