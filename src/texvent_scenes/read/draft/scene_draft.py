@@ -237,10 +237,9 @@ class SceneDraft(Abilities):
             else:
                 self.merge_compound(before, head, noun)
                 further = self.beside(before, -1)
-                while further in words and not (self.shows(further) or further.has("field", "verb")):
+                if further in words and not (self.shows(further) or further.has("field", "verb")):
                     self.compounds[head.at] = f"{further.text} {self.compounds[head.at]}"
                     self.mark(further, "")  # "a chain-link fence"
-                    further = self.beside(further, -1)
 
     def merge_compound(self, before: Token, head: Token, noun: str) -> None:
         """Report two words as one, which is shown as a noun."""

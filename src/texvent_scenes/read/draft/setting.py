@@ -110,10 +110,9 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
     is_said = bool(group.modifiers) and relation not in ("in", "on", "through")
     is_crossed = "across" in (draft.beside(head, -1).text, draft.beside(head, -2).text)
     is_crossed &= "name" in place  # the sky above it
-    is_left = relation in ("out of", "from") and any(
-        one.text in ("onto", "into", "across") and _leads_to_place(draft, one)
-        for one in draft.tokens[head.at : head.at + 3]
-    )  # "out of a forest onto a road"
+    after = [draft.beside(head, step) for step in (1, 2, 3, 4)]
+    is_left = relation in ("out of", "from") and after[0].text in ("onto", "into", "across")
+    is_left &= any(one.has("place") for one in after)  # "out of a forest onto a road"
     if name == "sky" and not relation and "name" not in place and _is_overhead(draft):
         draft.show(head)
     elif name in word_set("things", "backdrops") and (
@@ -132,11 +131,6 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
     for token in group.unknown:  # "a mountain road"
         if {one.value for one in token.all("place")} & word_set("things", "backdrops"):
             set_place(draft, Group(token), token, "in")
-
-
-def _leads_to_place(draft: SceneDraft, preposition: Token) -> bool:
-    """Whether a place follows a preposition, with an article and an adjective at most."""
-    return any(draft.beside(preposition, step).has("place") for step in (1, 2, 3))
 
 
 def _say_of_place(draft: SceneDraft, token: Token, name: str, *, is_it: bool) -> None:

@@ -275,7 +275,8 @@ def _read_phrase(
             found = _without_chance(found, words, end, before)
             found = () if _is_shade(words, end, lexicon) else found
             found = () if _is_doing(words, end, lexicon) else found
-            found = () if _begins_name(words, at, end, lexicon) else found
+            is_name = all(one.kind == "noun" for one in found)
+            found = () if is_name and _begins_name(words, at, end, lexicon) else found
             is_thing = len(phrase) == 2 < end + 1 - at  # "approaching the camera", no camera
             found = tuple(one for one in found if one.kind != "noun" or not (
                 is_thing or _is_counted(senses, one, before)))  # fmt: skip
