@@ -118,7 +118,9 @@ def _choose_placed(
 def _is_of_place(draft: SceneDraft, phrase: Phrase) -> bool:
     """Whether it names what a place has that stays there: "a room with blue walls"."""
     before = draft.beside(phrase.preposition, -1)
-    is_fixed = all(draft.nouns[one].habitat == "fixed" for one in nouns_of(phrase.groups))
+    nouns = [draft.nouns[one] for one in nouns_of(phrase.groups)]
+    is_fixed = bool(nouns) and all(one.habitat == "fixed" for one in nouns)
+    is_fixed &= phrase.preposition.relation == "with"
     return is_fixed and before.has("place") and draft.shows(before)
 
 
@@ -176,11 +178,10 @@ def apply_phrase(draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: In
         draft.show(token)
     elif kind and (subjects or kind != "with"):  # "an office with a desk"
         _relate_all(draft, token, kind, subjects, targets)
-    is_lone = not targets or (kind == "with" and bool(subjects or moved or not draft.last.has_verb))
-    if is_lone and any(map(draft.shows, words_of(phrase.groups))):
-        draft.show(token)
-    if kind == "with" and targets and _is_of_place(draft, phrase):
-        draft.mark(token, "shown")
+    is_own = _is_of_place(draft, phrase)
+    is_lone = bool(subjects or moved or not draft.last.has_verb) and kind == "with"
+    if (is_own or is_lone or not targets) and any(map(draft.shows, words_of(phrase.groups))):
+        draft.mark(token, "shown") if is_own else draft.show(token)
     return targets
 
 

@@ -123,8 +123,8 @@ class _Parser(GroupReader):
         is_pronoun = self._token().has("pronouns") and self._token(1).has("verb")
         if clause.verb is not None and (is_pronoun or self._is_verb(Clause(about="same"))):
             is_both = bool(clause.verb.verbs("ing") and self._token().verbs("ing"))
-            about = "meanwhile" if is_both else "same"  # "talking and walking"
-            return Clause(about=about, after=how)  # "flies and slowly turns"
+            kind = "meanwhile" if is_both else "same"  # "talking and walking"
+            return Clause(about=kind, after=how)  # "flies and slowly turns"
         self._at -= len(how)
         if clause.verb is not None and self._token().is_unknown and self._has_object():
             return Clause(about="same", verb=self._take())  # "and wugs it"
