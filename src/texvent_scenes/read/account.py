@@ -91,7 +91,8 @@ def _decide(draft: SceneDraft, token: Token, after: Token) -> str:
     is_open |= token.text == "to" and bool(after.verbs("base"))  # "starts to spin"
     is_begun = token.text in word_set("things", "aspects")
     is_open &= not is_begun or after.text == "to" or bool(after.verbs("ing"))
-    if token.has("small") and after.has("adverb", "negations") and draft.shows(after):
+    is_led = token.has("small") and token.text != "and"
+    if is_led and after.has("adverb", "negations") and draft.shows(after):
         draft.show(token)  # "at 50 km/h", "with no cars"
     if token.has("style") and " " in token.text:
         draft.show(token)  # "in front of the camera"
@@ -118,7 +119,7 @@ def _join_lost(draft: SceneDraft, ends: Sequence[str]) -> None:
             run.append(token)
             continue
         at = token.at if end != "lost" and token.has("noun", "place", "effect", "hollow") else 0
-        while run and run[-1].at == at - 1 and not run[-1].has("relation", "small", "adverb"):
+        while run and run[-1].at == at - 1 and run[-1].at in draft.modifying:
             at = run.pop().at
         draft.join(run)
         run = [token] if is_lost else []

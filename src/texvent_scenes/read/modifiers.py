@@ -202,6 +202,9 @@ def _is_open(draft: SceneDraft, field: str, things: Sequence[Mapping[str, Any]])
     motions = [one for thing in things for one in thing["motions"]]
     if field == "angle_deg":
         return True  # a camera turns by it
+    if field == "is_lit":
+        return not all(one["noun"] in LAMPS or draft.nouns[one["noun"]].is_working
+                       for one in things)  # fmt: skip
     if field == "rate_hz":
         works = any(draft.nouns[one["noun"]].is_working for one in things)
         is_lamp = any("blink_hz" in one or one["noun"] in LAMPS for one in things)

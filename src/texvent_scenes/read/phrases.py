@@ -29,7 +29,7 @@ from texvent_scenes.read.prepositions import (
     names_formation,
     names_sky,
 )
-from texvent_scenes.read.relations import hand_over, relate_one
+from texvent_scenes.read.relations import GROUNDS, hand_over, relate_one
 from texvent_scenes.read.things import name_group
 from texvent_scenes.spec.data import PLACING, SPACED, WAYS
 
@@ -115,6 +115,15 @@ def _choose_placed(
     return told if kind in PLACING and is_passed else subjects
 
 
+def _is_of_place(draft: SceneDraft, phrase: Phrase) -> bool:
+    """Whether it names what a place has that stays there: "a room with blue walls"."""
+    before = draft.beside(phrase.preposition, -1)
+    nouns = [draft.nouns[one] for one in nouns_of(phrase.groups)]
+    is_fixed = bool(nouns) and all(one.habitat == "fixed" for one in nouns)
+    is_fixed &= phrase.preposition.relation == "with"
+    return is_fixed and before.has("place") and draft.shows(before)
+
+
 def _find_aimed(draft: SceneDraft, phrase: Phrase, last: Token, subjects: Indices) -> list[int]:
     """Target of a look, if a phrase follows it at once: "looks at a bird on a branch"."""
     verb, before = draft.last.verb or NO_TOKEN, draft.beside(phrase.preposition, -1)
@@ -169,9 +178,10 @@ def apply_phrase(draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: In
         draft.show(token)
     elif kind and (subjects or kind != "with"):  # "an office with a desk"
         _relate_all(draft, token, kind, subjects, targets)
-    is_lone = not targets or (kind == "with" and bool(subjects or moved or not draft.last.has_verb))
-    if is_lone and any(map(draft.shows, words_of(phrase.groups))):
-        draft.show(token)
+    is_own = _is_of_place(draft, phrase)
+    is_lone = bool(subjects or moved or not draft.last.has_verb) and kind == "with"
+    if (is_own or is_lone or not targets) and any(map(draft.shows, words_of(phrase.groups))):
+        draft.mark(token, "shown") if is_own else draft.show(token)
     return targets
 
 
@@ -210,7 +220,7 @@ def _relate_all(
     draft: SceneDraft, token: Token, kind: str, subjects: Indices, targets: Indices
 ) -> None:
     """Apply a preposition to all that it is said of."""
-    if token.text in word_set("things", "led_along") and draft.names(targets) <= nouns_with("way"):
+    if token.text in word_set("things", "led_along") and draft.names(targets) <= GROUNDS:
         kind = "on"  # "walks along a pier"
     if handled := hand_over(draft, token, kind, subjects, targets):
         draft.mark(token, handled)

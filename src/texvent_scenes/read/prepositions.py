@@ -78,6 +78,9 @@ def lose_ways(
     """
     for one in after:
         token = one.preposition if isinstance(one, Phrase) else one
+        heads = heads_of(one.groups) if isinstance(one, Phrase) else ()
+        if any(draft.fates.get(each.at) == "camera" for each in heads):
+            continue  # "the view is from a drone"
         kinds = {each.value for each in token.all("relation" if token is not one else "adverb")}
         said = {each if token is not one else each[0] for each in kinds}
         is_way = not (has_subject or said & {"in", "at", "with"} or token.text == "on")
@@ -205,7 +208,7 @@ def goes_over(draft: SceneDraft, token: Token, subjects: Indices) -> bool:
 def _shows_way(draft: SceneDraft, token: Token, place: PlaceModel, subjects: Indices) -> bool:
     """Whether a place shows a preposition: no "towards a park", "by a forest"."""
     kinds = token.relations
-    if token.text in ("across", "down", "up"):
+    if token.text in ("across", "around", "down", "up"):
         return not subjects or any(draft.things[one]["motions"] for one in subjects)
     if "above" in kinds:
         is_high = not any(map(draft.keeps_to_ground, subjects))
@@ -303,7 +306,10 @@ def dress(draft: SceneDraft, phrase: Phrase, subjects: Indices) -> bool:
 
 def is_rained_on(draft: SceneDraft, token: Token, kind: str) -> bool:
     """Whether weather or leaves come down on something, as on all: "snow falls on a car"."""
-    return comes_down(draft.beside(token, -1)) and kind in _RAINED_ON
+    before = draft.beside(token, -1)
+    places = {one.value for each in draft.tokens for one in each.all("place")}
+    washes = before.says("scene", "place") and before.text.startswith("wave") and places <= {"sea"}
+    return (comes_down(before) or washes) and kind in _RAINED_ON
 
 
 def is_rained_under(draft: SceneDraft, token: Token, targets: Indices) -> bool:
@@ -340,7 +346,9 @@ def is_standpoint(draft: SceneDraft, phrase: Phrase, move: Mapping[str, Any] | N
     leaves = kind in ("pan", "tilt", "zoom") or (move or {}).get("direction") in ("out", "up")
     before = draft.beside(preposition, -1)
     is_mount = before.text in word_set("things", "mounted")  # "mounted on a car"
-    is_mount |= before.text in ("is", "sits") and draft.beside(before, -1).has("camera")
+    if before.text in ("is", "sits"):  # "the view is from a bridge"
+        before = draft.beside(before, -1)
+        is_mount = before.has("camera")
     is_mount &= preposition.text in ("on", "in", "to", "onto", "inside", "aboard")
     is_so = (preposition.text.startswith("from") or is_mount) and bool(phrase.groups) and not leaves
     is_view = is_mount or before.text in word_set("things", "viewed") or before.has("shot")
@@ -349,13 +357,20 @@ def is_standpoint(draft: SceneDraft, phrase: Phrase, move: Mapping[str, Any] | N
     heads = heads_of(phrase.groups)
     if heads and all(one.has("place") for one in heads):
         return False  # "seen from a beach" is there
-    for token in (preposition, *words_of(phrase.groups)):
+    is_said = before.text in word_set("things", "viewed")
+    for token in (*([before] if is_said else []), preposition, *words_of(phrase.groups)):
         draft.mark(token, "lost")
     nouns = nouns_of(phrase.groups)
     after = draft.tokens[heads[-1].at + 1 :][:1] if heads else ()
-    if any(draft.nouns[one].speed_m_s for one in nouns) and any(map(is_course, after)):
+    is_high = bool(nouns) and all(draft.nouns[one].habitat == "air" for one in nouns)
+    is_high &= is_said and preposition.text == "from"  # "a river seen from a drone"
+    goes = any(draft.nouns[one].speed_m_s for one in nouns) and any(map(is_course, after))
+    if is_high or goes:
+        draft.mark(before, "shown" if is_said else draft.fates.get(before.at, ""))
         draft.mark(preposition, "shown")
         draft.mark(heads[-1], "camera")  # "view from a drone flying over a field"
+    if is_high:
+        draft.parts["camera"].setdefault("view", "aerial")
     return True
 
 

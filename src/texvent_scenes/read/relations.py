@@ -27,7 +27,7 @@ _ROUND = frozenset({"on", "past", "at", "in", "through", "into"})
 _SMALL = nouns_with("in hand or on something")
 _BED = nouns_with("seat") | word_set("things", "tables")
 _WORKED_AT = nouns_with("worked at")
-_GROUND = nouns_with("way") | nouns_with("put down on")
+GROUNDS = nouns_with("way") | nouns_with("put down on")
 _HANDED = {"into": "in", "in": "in", "on": "on", "to": "on", "above": "on"}
 
 
@@ -148,7 +148,7 @@ def _put_by_hand(
             if one["kind"] == "set down" and draft.things[n]["noun"] in PERSON_NOUNS]  # fmt: skip
     place = "on" if token.text == "onto" else {"into": "in"}.get(kind, kind)
     is_put = bool(acts) and place in ("in", "on") and verb is not None
-    if not is_put or not {*targets}.isdisjoint(acts[0]["to"]) or noun in _GROUND:
+    if not is_put or not {*targets}.isdisjoint(acts[0]["to"]) or noun in GROUNDS:
         return ""
     if place == "on" and all(_use(draft.things[n], noun) for n in subjects):
         for n in subjects:

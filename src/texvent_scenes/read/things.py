@@ -70,6 +70,7 @@ def name_group(
 ) -> list[int]:
     """Add what a group names; the indices of its objects, at most one."""
     head = group.head
+    draft.modifying |= {one.at for one in group.words} if head is not None else set()
     found: list[int] = []
     if head is not None and relation in word_set("things", "by_effects"):
         head = _see_as_thing(head)
@@ -110,6 +111,7 @@ def _name_others(draft: SceneDraft, group: Group, relation: str, owners: Indices
         marks = word_set("things", "marks") if is_mark else ()
         if not set_scene(draft, token) and effect and effect.value not in marks:
             draft.add_effect(token, effect.value, owners)
+            draft.show_inherent((draft.beside(token, -1), *group.words), effect.value)
 
 
 def _find_whole(draft: SceneDraft, group: Group) -> Group | None:

@@ -104,6 +104,8 @@ class SceneDraft(Abilities):
     compounds: dict[int, str] = field(default_factory=dict)
     """Number of a token → the words that are told as one: the compound of which it is the head,
     or the phrase with which it is lost."""
+    modifying: set[int] = field(default_factory=set)
+    """Numbers of the tokens that say what a thing is like."""
     before_sky: list[int] = field(default_factory=list)
     """Objects behind which only the sky is seen: "against the sunset"."""
     homes: list[tuple[Token, Token, str]] = field(default_factory=list)
@@ -234,6 +236,10 @@ class SceneDraft(Abilities):
                 self.homes.append((before, head, noun))  # "a street cat"
             else:
                 self.merge_compound(before, head, noun)
+                further = self.beside(before, -1)
+                if further in words and not (self.shows(further) or further.has("field", "verb")):
+                    self.compounds[head.at] = f"{further.text} {self.compounds[head.at]}"
+                    self.mark(further, "")  # "a chain-link fence"
 
     def merge_compound(self, before: Token, head: Token, noun: str) -> None:
         """Report two words as one, which is shown as a noun."""

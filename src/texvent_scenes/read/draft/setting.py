@@ -7,7 +7,7 @@ from typing import Any
 
 from texvent_scenes.description import SEEN
 from texvent_scenes.models.nouns import AFLOAT
-from texvent_scenes.models.places import is_room
+from texvent_scenes.models.places import PLACES, is_room
 from texvent_scenes.read.draft.scene_draft import SceneDraft, split_move
 from texvent_scenes.read.parsing.groups import Group
 from texvent_scenes.read.parsing.lexicon import word_set, word_table
@@ -108,16 +108,23 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
         _fill_place(draft, token, (head.text, name))
     set_scene(draft, head)
     is_said = bool(group.modifiers) and relation not in ("in", "on", "through")
+    is_crossed = "across" in (draft.beside(head, -1).text, draft.beside(head, -2).text)
+    is_crossed &= "name" in place  # the sky above it
+    after = [draft.beside(head, step) for step in (1, 2, 3, 4)]
+    is_left = relation in ("out of", "from") and after[0].text in ("onto", "into", "across")
+    is_left &= any(one.has("place") for one in after)  # "out of a forest onto a road"
     if name == "sky" and not relation and "name" not in place and _is_overhead(draft):
         draft.show(head)
-    elif not is_it and name in word_set("things", "backdrops") and not is_room(place["name"]):
+    elif name in word_set("things", "backdrops") and (
+        is_left if is_it else not is_room(place["name"])
+    ):
         far = "city" if name == "skyline" else name
         place["backdrops"] = list(dict.fromkeys([*place.get("backdrops", ()), far]))
-        draft.show(head)
+        draft.show(head, *(one for one in group.modifiers if one.says("adverb", "placement")))
     elif is_room(name) and place.get("name") == "indoor":
         place["name"] = name
         draft.show(head)
-    elif (name == "sky" and is_said) or (
+    elif (name == "sky" and (is_said or is_crossed)) or (
         place.setdefault("name", name) == name or place["name"] in _true_of(head)
     ):  # "grass" in a park
         draft.mark(head, name if head.text in word_set("things", "stand_ins") else "shown")
@@ -129,15 +136,26 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
 def _say_of_place(draft: SceneDraft, token: Token, name: str, *, is_it: bool) -> None:
     """Apply an adjective of a place: a colour, "dark" or a word of light and weather."""
     place, (field, value) = draft.parts["place"], token.value("field")
+    if any(one.value[1:] == ("name", "indoor") for one in token.all("scene")):
+        draft.mark(token, "shown" if is_room(name) else "lost")  # "an indoor pool" is outside
+        return
     if token.text == "dark":
         draft.parts["light"].setdefault("kind", "night")
         if name == "plain":
             place |= {"colour": "black", "sky": "black"}
     elif field == "colour" and is_it and not is_room(name):
         place["sky" if name == "sky" else "colour"] = value
-    elif not (token.has("partitive") or set_scene(draft, token) or name in _true_of(token)):
+    elif not (token.has("partitive") or _is_so_large(token, name)
+              or set_scene(draft, token) or name in _true_of(token)):  # fmt: skip
         return
     draft.show(token)
+
+
+def _is_so_large(token: Token, name: str) -> bool:
+    """Whether a size is that of a place: "a large warehouse", "a small kitchen", "a huge lake"."""
+    field, size = token.value("field")
+    is_large = PLACES[name].hall_m > 0.0 or name in word_table("inherent")["wide"]
+    return field == "size" and (is_large if size > 1.0 else is_room(name) and not is_large)
 
 
 def _true_of(token: Token) -> Sequence[str]:

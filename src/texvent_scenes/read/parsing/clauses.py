@@ -21,6 +21,8 @@ from texvent_scenes.read.parsing.tokens import NO_TOKEN, Token
 
 _LED = frozenset({"follow", "orbit"})
 """Moves of a camera about somebody: "tracking shot following a cyclist"."""
+_LIT = {"on": "lit", "off": "unlit"}
+"""Words after "is" → what they say of lamps."""
 _IS = ("is", "are", "was", "were")
 
 
@@ -116,10 +118,14 @@ class _Parser(GroupReader):
         self._take()
         if self._token().has("conjunctions"):  # "and then"
             return self._end(clause)
+        is_how = self._token().text.endswith("ly") and self._token(1).has("verb")
+        how = (self._take(),) if is_how and clause.verb is not None else ()
         is_pronoun = self._token().has("pronouns") and self._token(1).has("verb")
         if clause.verb is not None and (is_pronoun or self._is_verb(Clause(about="same"))):
             is_both = bool(clause.verb.verbs("ing") and self._token().verbs("ing"))
-            return Clause(about="meanwhile" if is_both else "same")  # "talking and walking"
+            kind = "meanwhile" if is_both else "same"  # "talking and walking"
+            return Clause(about=kind, after=how)  # "flies and slowly turns"
+        self._at -= len(how)
         if clause.verb is not None and self._token().is_unknown and self._has_object():
             return Clause(about="same", verb=self._take())  # "and wugs it"
         ahead = 1 if self._token().has("articles") else 0
@@ -133,6 +139,10 @@ class _Parser(GroupReader):
         is_passive = token.verbs("ed") and after.text == "by"  # "drives, followed by a van"
         if clause.has_subject and (is_passive or (clause.verb and self._goes_on(clause.verb))):
             return Clause(about="same")
+        goes_on = token.has("relation", "shot") or bool(token.verbs("s"))
+        goes_on |= token.text in word_set("things", "mounted")
+        if clause.about == "camera" and clause.verb is None and goes_on:
+            return Clause(about="camera")  # "the camera, on a tripod, pans left"
         is_part = any(one.picks for one in clause.subjects)
         if is_part and clause.verb is None and token.has("verb"):
             return Clause(about="same")  # "two balls, one red and one blue, collide"
@@ -275,6 +285,10 @@ class _Parser(GroupReader):
         if clause.verb is not None or not self._is_verb(clause):
             return None
         verb = self._take()
+        moves = any(one.value.who == "camera" for one in verb.all("verb"))
+        if moves and self._token().has("articles") and self._token(1).has("camera"):
+            self._at += 2  # "flies and tilts its camera down"
+            return replace(clause, verb=verb, about="camera")
         is_object = self._starts_group() and not self._is_adverb()
         return replace(clause, verb=verb, objects=self._groups() if is_object else ())
 
@@ -313,6 +327,10 @@ class _Parser(GroupReader):
         is_back = token.has("relation") and is_before
         is_passive = token.text in ("being", "been") and bool(self._token(1).verbs("ed"))
         is_lone = not self._starts_group(1) or self._token(1).has("adverb") or is_passive
+        if token.text in _IS and self._token(1).text in _LIT and self._ends_clause(2):
+            self._at += 2
+            word = replace(self._token(-1), senses=lexicon_of(None)[(_LIT[self._token(-1).text],)])
+            return replace(clause, after=(*clause.after, word))  # "the lamp is on"
         if not is_back and is_lone:
             if token.has("adverb") or not (token.has("relation") or is_passive):
                 return None
@@ -332,6 +350,11 @@ class _Parser(GroupReader):
             return replace(clause, after=(*clause.after, *said))
         phrase = Phrase(token, () if is_back else self._groups(token))
         return replace(clause, after=(*clause.after, phrase))
+
+    def _ends_clause(self, ahead: int) -> bool:
+        """Whether nothing more is said of a subject."""
+        token = self._token(ahead)
+        return token is NO_TOKEN or token.is_sign or token.text == "and"
 
     def _read_adverb(self, clause: Clause) -> Clause | None:
         token = self._token()

@@ -160,7 +160,10 @@ class GroupReader:
     def _starts_group(self, ahead: int = 0) -> bool:
         token, after = self._token(ahead), self._token(ahead + 1)
         if token.has("articles"):
-            return not (after.text.endswith("camera") or after.has("camera") or after.is_sign)
+            is_back = token.has("pronouns") and after.text.endswith("ly")  # "circles her slowly"
+            is_back &= not self._starts_group(ahead + 2)
+            is_end = after.text.endswith("camera") or after.has("camera") or after.is_sign
+            return not (is_end or is_back)
         is_view = token.has("shot") and not token.has("noun", "place")
         is_alone = is_view or token.text.startswith(_PREPOSITIONS)  # "aerial view", "at night"
         if token.has(*_STANDPOINTS) or token.is_sign or is_alone:
@@ -306,7 +309,8 @@ class GroupReader:
         words, is_one = self._tokens[first : self._at], article in ("a", "an")
         is_other = is_one and any(one.is_unknown for one in words)  # "a six axis robot arm"
         counts = [count for one in words for count in _counts(one) if not is_other]
-        if not senses or not (counts or is_one):
+        is_owned = any(one.text.endswith(("'s", "’s")) for one in words)  # "a man's hands"
+        if not senses or is_owned or not (counts or is_one):
             return True
         after = self._token(ahead + 1)
         is_first = after.has("noun") and not after.has("verb", "relation")  # "two sedan cars"

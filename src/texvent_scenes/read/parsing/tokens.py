@@ -275,6 +275,8 @@ def _read_phrase(
             found = _without_chance(found, words, end, before)
             found = () if _is_shade(words, end, lexicon) else found
             found = () if _is_doing(words, end, lexicon) else found
+            is_name = all(one.kind == "noun" for one in found)
+            found = () if is_name and _begins_name(words, at, end, lexicon) else found
             is_thing = len(phrase) == 2 < end + 1 - at  # "approaching the camera", no camera
             found = tuple(one for one in found if one.kind != "noun" or not (
                 is_thing or _is_counted(senses, one, before)))  # fmt: skip
@@ -320,6 +322,13 @@ def _is_doing(words: Sequence[str], end: int, lexicon: Lexicon) -> bool:
         return {one.form for one in lexicon.get(both[1:], ())} == {"base"}
     is_act = len(both) == 2 and both[1].endswith("ing")
     return is_act and any(one.kind in ("scene", "effect") for one in lexicon.get(both, ()))
+
+
+def _begins_name(words: Sequence[str], at: int, end: int, lexicon: Lexicon) -> bool:
+    """Whether what is said to do something goes on as a name: "a walking robot dog"."""
+    name = tuple(one.casefold() for one in words[end : end + 2])
+    is_name = len(name) == 2 and any(one.kind == "noun" for one in lexicon.get(name, ()))
+    return is_name and end == at + 1 and words[at].casefold().endswith("ing")
 
 
 def _as_senses(found: Found) -> tuple[int, Senses]:
