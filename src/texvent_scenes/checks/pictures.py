@@ -223,7 +223,7 @@ def _is_told(scene: ComposedScene, place: str, times: Sequence[float]) -> bool:
 
 
 def _tell_seen(scene: ComposedScene, times: Sequence[float]) -> str:
-    """Parts of a place that are in view and do not tell it: its walls, its ground, what many have."""
+    """Parts of a place in view that do not tell it: its walls, its ground, what many have."""
     cameras = [scene.camera(time_s) for time_s in times]
     shares: dict[str, float] = {}
     for one in scene.scenery:
