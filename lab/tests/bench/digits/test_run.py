@@ -9,7 +9,7 @@ import pytest
 
 from texvent_lab.bench.digits import run as digits
 from texvent_lab.bench.digits.data import read_mnist, read_recordings
-from texvent_lab.bench.digits.inputs import represent_recordings
+from texvent_lab.bench.digits.inputs import represent_all, represent_recordings
 from texvent_lab.bench.digits.plan import (
     ABLATION,
     ARMS,
@@ -20,6 +20,7 @@ from texvent_lab.bench.digits.plan import (
 )
 from texvent_lab.bench.digits.results import digits_table, read_report
 from texvent_lab.bench.digits.run import DigitsRun, run_digits, simulate_digits
+from texvent_lab.bench.digits.sheet import Digits, DigitSheet
 from texvent_lab.bench.digits.training import shift_images
 from texvent_lab.bench.document import read_document, write_document
 from texvent_lab.bench.page import page_files
@@ -109,6 +110,12 @@ def test_without_torch_scores_are_those_of_networks_that_never_saw_what_they_are
             mnist, PAIRS + 1 + np.arange(60), find_arm(cell.arm), cell.way, score.threshold
         )
         assert made.labels.tolist() == [n % 10 for n in range(PAIRS, PAIRS + 60)]
+        arm, seventh = find_arm(cell.arm), np.array([7])  # image 7 is the seventh of the file
+        sheet = DigitSheet(Digits.draw(mnist.images[6:7], seventh, 0, arm.stimulus))
+        events = digits._events_of(sheet, arm, cell.way, score.threshold, 7)
+        one = simulate_digits(mnist, seventh, arm, cell.way, score.threshold)
+        assert one.counts.tolist() == [[np.sum(sheet.cut(represent_all(events)[1])[0, p])
+                                        for p in (0, 1)]]  # fmt: skip
         assert score.events == np.median(made.counts.sum(axis=1))
         assert score.on_share == made.counts[:, 1].sum() / made.counts.sum()
         assert score.accuracy == [
