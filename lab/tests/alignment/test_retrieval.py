@@ -1,6 +1,9 @@
 """Retrieval on matrices whose ranks are known by hand, and what holds for every matrix."""
 
 import math
+import re
+from functools import partial
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -12,7 +15,13 @@ from tests.examples import examples
 
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
-from texvent_lab.alignment.align import RetrievalReport, find_misfits, score_retrieval
+from texvent_lab.alignment.align import (
+    RetrievalReport,
+    align,
+    alignment_table,
+    find_misfits,
+    score_retrieval,
+)
 from texvent_lab.alignment.recordings import TextRecording
 
 EMPTY = EventStream.empty(SensorSize(1, 1))
@@ -102,3 +111,42 @@ def test_all_cyclic_exchanges_together_are_exactly_chance(matrix: NDArray[np.flo
     assert np.mean([one.mean_similarity for one in shifted]) == pytest.approx(
         chance.mean_similarity
     )
+
+
+@given(seed=st.integers(0, 999))
+@examples(10)
+def test_recordings_are_ranked_by_the_mean_direction_of_their_images_among_different_texts(
+    seed: int,
+) -> None:
+    rng = np.random.default_rng(seed)
+    images = [rng.normal(size=(count, 6)) for count in rng.integers(1, 5, 7)]
+    words = rng.normal(size=(3, 6))
+    clip: Any = SimpleNamespace(
+        embed_images=lambda one: one,
+        embed_texts=lambda texts: np.stack([words["ABC".index(one)] for one in texts]),
+    )
+    loads: Any = [partial(int, n) for n in range(7)]
+    recordings = [TextRecording(str(n), "BCA"[n % 3], load) for n, load in enumerate(loads)]
+    drawn: Any = images.__getitem__
+    reports = align({"all": recordings, "few": recordings[:2]}, drawn, clip, seed=seed, margin=9.0)
+    for name, texts in (("all", [1, 2, 0]), ("few", [1, 2])):
+        own = np.arange(len(recordings) if name == "all" else 2) % 3
+        means = np.stack([images[n].mean(axis=0) for n in range(len(own))])
+        cosines = means / np.linalg.norm(means, axis=1, keepdims=True) @ words[texts].T
+        ranks = [1 + sum(row > row[place]) for row, place in zip(cosines, own, strict=True)]
+        measured = reports[name].measured
+        assert measured.recall[1] == np.mean(np.array(ranks) == 1)
+        assert measured.median_rank == np.median(ranks)
+        expected = np.mean([row[place] for row, place in zip(cosines, own, strict=True)])
+        assert measured.mean_similarity == pytest.approx(expected, abs=1e-5)
+        assert len(reports[name].misfits) == len(own)
+    head, first, mixed, chance = (
+        re.split(r"\s{2,}", line) for line in alignment_table(reports).splitlines()[:4]
+    )
+    one = reports["all"]
+    for place, k in enumerate((1, 5, 10), start=3):
+        value, low, high = (f"{each.recall[k]:.3f}" for each in (one.measured, one.low, one.high))
+        assert (head[place], first[place]) == (f"R@{k}", f"{value} [{low}, {high}]")
+        assert mixed[place - 2] == f"{one.shuffled.recall[k]:.3f}"
+        assert chance[place - 2] == f"{min(k / 3, 1):.3f}"
+    assert (first[:3], chance[4], first[-1]) == (["all", "7", "3"], "2.0", f"{one.p_value:.3f}")

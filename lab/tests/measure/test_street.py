@@ -8,7 +8,7 @@ import pytest
 from texvent import EventStream, SensorSize
 from texvent.truth.boxes import BOX_RECORD
 from texvent_lab.bench.document import read_document
-from texvent_lab.measure.street import as_markdown, inside, measure, two_cars
+from texvent_lab.measure.street import FOCAL, as_markdown, inside, measure, two_cars
 from texvent_scenes.scene_input import describe_scene, list_nouns
 from texvent_scenes.staging.compose import compose_scene
 
@@ -49,6 +49,8 @@ def test_the_table_of_the_design_notes_is_that_of_the_stored_result():
 
 
 def test_two_cars_pass_each_other_before_the_camera():
+    camera = two_cars(44.0).camera
+    assert 0.5 / np.tan(np.radians(camera.field_of_view_deg) / 2) == pytest.approx(FOCAL)
     description = describe_scene(two_cars(44.0), list_nouns())
     scene = compose_scene(description, seed=0, size=SensorSize(346, 260), duration_s=1.0)
     first, second = (one.track.at(0.75).position[0] - one.track.at(0.25).position[0]

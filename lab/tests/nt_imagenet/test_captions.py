@@ -1,10 +1,12 @@
 """Captions: read and checked."""
 
+import json
 from pathlib import Path
 
 import pytest
 
-from texvent.errors import FileFormatError
+from texvent.errors import FileFormatError, InputError
+from texvent_lab.nt_imagenet import images
 from texvent_lab.nt_imagenet.captions import (
     CaptionCheck,
     check_captions,
@@ -58,3 +60,31 @@ def test_duplicates_differ_in_case_and_punctuation_alone() -> None:
     checks = check_captions(captions)
     assert [id for id, one in checks.items() if one.is_duplicate] == ["b"]
     assert normalised("ﬁsh — Ünder  water!") == "fish ünder water"
+
+
+def test_captions_are_kept_per_model_and_made_once(tmp_path, monkeypatch):
+    asked = []
+
+    def describe(path, pipeline):
+        asked.append((path.stem, pipeline))
+        if path.stem == "b":
+            raise InputError("b is damaged")
+        return f"{path.stem} by {pipeline}"
+
+    monkeypatch.setattr(images, "_load", lambda model, device: f"{model} on {device}")
+    monkeypatch.setattr(images, "_describe", describe)
+    paths = {one: tmp_path / f"{one}.png" for one in "cab"}
+    kept, told = tmp_path / "kept.json", []
+    for model, names in (("m", "ca"), ("m", "cab"), ("n", "a"), ("m", "a")):
+        some = {one: paths[one] for one in names}
+        found, failures = images.make_captions(
+            some, model, kept, device="cpu", progress=lambda *one: told.append(one)
+        )
+        assert list(found.items()) == [(one, f"{one} by {model} on cpu") for one in names
+                                       if one != "b"]  # fmt: skip
+        assert failures == ({"b": "b is damaged"} if "b" in names else {})
+    assert [name for name, _ in asked] == ["c", "a", "b", "a"]
+    assert told == [("captions", 0, 2), ("captions", 1, 2), ("captions", 0, 1), ("captions", 0, 1)]
+    assert {model: [*own] for model, own in json.loads(kept.read_text()).items()} == {
+        "m": ["c", "a"], "n": ["a"]
+    }  # fmt: skip

@@ -1,8 +1,11 @@
+import dataclasses
 import json
 from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from texvent.errors import ConfigError, InputError
 from texvent.truth.boxes import BOX_RECORD
@@ -12,8 +15,10 @@ from texvent_lab.bench.detection.clips import (
     mark_resting,
     read_classes,
     read_clips,
+    scale,
 )
 from texvent_lab.bench.detection.config import DetectionConfig, DetectionData
+from texvent_lab.bench.detection.results import ArmScore, DetectionReport, detection_table
 from texvent_lab.commands.bench.bench import run
 
 CARS = """
@@ -202,3 +207,44 @@ def test_arms_are_trained_and_tested_on_the_same_boxes(tmp_path: Path, monkeypat
     assert list(first["ap50"]) == [*CLASSES.split(","), "all"]
     with pytest.raises(ConfigError, match="unknown arm 'rvt'"):
         run([*words, "--arms", "rvt"])
+
+
+@given(seed=st.integers(0, 999))
+def test_parts_of_a_clip_are_those_of_its_dense_histograms(seed):
+    rng = np.random.default_rng(seed)
+    whole = rng.poisson(0.1, (6, 3, 4, 5)).astype(np.uint8)
+    rows = [boxes(*[(1, 0, 0, 4, 4)] * count) for count in rng.integers(0, 3, 6)]
+    for one in rows:
+        one["class_confidence"] = rng.integers(0, 2, len(one))
+    clip = BoxedClip.of("a", list(whole), rows)
+    first, count = rng.integers(0, 6), rng.integers(1, 7)
+    part = clip.part(first, count)
+    flat = np.zeros(part.shape, np.uint8).ravel()
+    flat[part.places] = part.counts
+    assert np.array_equal(flat.reshape(part.shape), whole[first : first + count])
+    assert part.learnable == [n for n, one in enumerate(rows[first : first + count])
+                              if sum(one["class_confidence"]) > 0]  # fmt: skip
+    assert scale(boxes((7, 2, 4, 6, 8)), 0.5).tolist() == boxes((7, 1, 2, 3, 4)).tolist()
+
+
+def test_a_row_of_detectors_has_means_over_its_networks():
+    def score(arm, seed, value):
+        ap50 = {one: {"value": value, "low": value - 0.1, "high": value + 0.1}
+                for one in ("all", "car", "bus")}  # fmt: skip
+        ap50["bus"] = {**ap50["bus"], "value": value / 2}
+        return ArmScore(
+            arm=arm, seed=seed, clips={}, events=1234.5, boxes=1, ap={"all": value / 4},
+            ap50=ap50, ap50_by_size={"small": value / 5}, street={"AP50": ap50["car"], "AP": {}},
+        )  # fmt: skip
+
+    scores = [score("a", 0, 0.4), score("b", 0, 0.8), score("a", 1, 0.6)]
+    scores[1] = dataclasses.replace(scores[1], street=None)
+    head, _, *rows = detection_table(DetectionReport({}, {}, scores, 0.0)).splitlines()
+    assert head == ("| trained on | events | AP | AP50 [95 %] | car | bus | small | "
+                    "recorded street, car AP50 [95 %] |")  # fmt: skip
+    both = "0.400 [0.300, 0.500], 0.600 [0.500, 0.700]"
+    assert rows == [
+        f"| a | 1,234 | 0.125 ± 0.025 | {both} | 0.500 ± 0.100 | 0.250 ± 0.050 | 0.100 ± 0.020 | "
+        f"{both} |",
+        "| b | 1,234 | 0.200 | 0.800 [0.700, 0.900] | 0.800 | 0.400 | 0.160 | – |",
+    ]

@@ -1,6 +1,7 @@
 """MNIST's files, N-MNIST's recordings, how its sensor moved, and digits that move so."""
 
 import dataclasses
+import itertools
 import math
 
 import numpy as np
@@ -15,6 +16,7 @@ from texvent_lab.bench.digits.data import read_idx, read_mnist, read_recordings
 from texvent_lab.bench.digits.inputs import polarity_agreement, represent_all
 from texvent_lab.bench.digits.plan import find_arm
 from texvent_lab.bench.digits.sheet import MEASURED, WIDE, Digits, DigitSheet
+from texvent_lab.bench.digits.training import _batches
 
 from .synthetic_data import encode, figures, record, tile_events, write_idx, write_mnist
 
@@ -178,3 +180,19 @@ def test_recordings_are_read_with_polarity_flipped(tmp_path):
     assert events.p.tolist() == [0, 1]  # the stored bit is 1 where brightness falls
     with pytest.raises(InputError, match="there is no 00008"):
         read_recordings(tmp_path, [8])
+
+
+def test_each_epoch_shows_every_image_once_moved_by_at_most_two_pixels():
+    images = np.zeros((10, 1, 9, 9), np.uint8)
+    images[np.arange(10), 0, 4, 4] = 1 + np.arange(10)
+    batches = list(itertools.islice(_batches(images, np.arange(10), 4, seed=3), 60))
+    assert [len(labels) for _, labels in batches] == [4, 4, 2] * 20
+    places = set()
+    for first in range(0, 60, 3):
+        labels = np.concatenate([one for _, one in batches[first : first + 3]])
+        assert sorted(labels) == list(range(10))
+    for shown, labels in batches:
+        for image, label in zip(shown, labels, strict=True):
+            assert image.max() == 1 + label
+            places.add(tuple(np.argwhere(image[0])[0] - 4))
+    assert places == {*itertools.product(range(-2, 3), repeat=2)}

@@ -2,13 +2,25 @@
 
 import dataclasses
 from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
 
-from texvent_lab.bench.digits.plan import ABLATION, ARMS, Cell, DigitsPlan, DigitsTraining
+from texvent_lab.bench.digits import run as digits
+from texvent_lab.bench.digits.data import read_mnist, read_recordings
+from texvent_lab.bench.digits.inputs import represent_all, represent_recordings
+from texvent_lab.bench.digits.plan import (
+    ABLATION,
+    ARMS,
+    Cell,
+    DigitsPlan,
+    DigitsTraining,
+    find_arm,
+)
 from texvent_lab.bench.digits.results import digits_table, read_report
-from texvent_lab.bench.digits.run import DigitsRun, run_digits
+from texvent_lab.bench.digits.run import DigitsRun, run_digits, simulate_digits
+from texvent_lab.bench.digits.sheet import Digits, DigitSheet
 from texvent_lab.bench.digits.training import shift_images
 from texvent_lab.bench.document import read_document, write_document
 from texvent_lab.bench.page import page_files
@@ -26,6 +38,8 @@ def data(tmp_path_factory):
     return folder / "mnist", folder / "recordings"
 
 
+SCHEDULE = Schedule(epochs=12, batch_size=16, learning_rate=0.01)
+OPTIONS = {"steps": 48, "schedule": SCHEDULE, "precision": "float32"}
 MATCHED = "recommended about the matched threshold"
 
 
@@ -41,8 +55,81 @@ def tiny_plan(data, work):
         pairs=PAIRS,
         seeds=2,
         folds=3,
-        schedule=Schedule(epochs=12, batch_size=16, learning_rate=0.01),
+        schedule=SCHEDULE,
     )
+
+
+class Nearest(NamedTuple):
+    """A network that names the class of the nearest mean image, one of a seed's noise."""
+
+    kinds: Any
+    means: Any
+
+    @classmethod
+    def train(cls, images, labels, *, seed, **options):
+        assert options == OPTIONS
+        kinds = np.unique(labels)
+        means = np.stack([images[labels == kind].astype(float).mean(axis=0) for kind in kinds])
+        return cls(kinds, means + np.random.default_rng(seed).normal(0, 0.02, means.shape))
+
+    def predict(self, images):
+        away = ((images[:, None] - self.means[None]) ** 2).sum(axis=(2, 3, 4))
+        return self.kinds[away.argmin(axis=1)]
+
+
+def right_share(training, recorded, kind):
+    """Share of recordings that networks of (images, labels, seed, recordings to ask) know."""
+    right = []
+    for images, labels, seed, asked in training:
+        network = Nearest.train(images, labels, seed=seed, **OPTIONS)
+        right += (network.predict(recorded.images[kind][asked]) == recorded.labels[asked]).tolist()
+    assert len(right) == TRAIN
+    return np.mean(right)
+
+
+def test_without_torch_scores_are_those_of_networks_that_never_saw_what_they_are_asked(
+    data, tmp_path, monkeypatch
+):
+    monkeypatch.setattr(digits, "require", lambda *_, **__: None)
+    monkeypatch.setattr(digits, "train_network", Nearest.train)
+    monkeypatch.setattr(digits, "predict", Nearest.predict)
+    plan = tiny_plan(data, tmp_path)
+    found = run_digits(plan)
+    numbers, mnist = np.arange(TRAIN), read_mnist(data[0])
+    recorded = represent_recordings(read_recordings(data[1], range(1, TRAIN + 1)))
+    target = np.median([len(one.events) for one in
+                        read_recordings(data[1], range(60_001, 60_001 + PAIRS))])  # fmt: skip
+    assert found.protocol["events of the pair in the middle"] == pytest.approx(target, rel=0.01)
+    assert found.recorded_events == np.median(recorded.counts.sum(axis=1))
+    assert found.recorded_on_share == recorded.counts[:, 1].sum() / recorded.counts.sum()
+    cells = [Cell("esim", "exact"), Cell("frame difference", "frames")]
+    for kind, score in zip(np.repeat(["histogram", "surface"], 2), found.scores, strict=True):
+        cell = cells[score.way == "frames"]
+        assert (score.arm, score.way, score.representation) == (cell.arm, cell.way, kind)
+        made = simulate_digits(
+            mnist, PAIRS + 1 + np.arange(60), find_arm(cell.arm), cell.way, score.threshold
+        )
+        assert made.labels.tolist() == [n % 10 for n in range(PAIRS, PAIRS + 60)]
+        arm, seventh = find_arm(cell.arm), np.array([7])  # image 7 is the seventh of the file
+        sheet = DigitSheet(Digits.draw(mnist.images[6:7], seventh, 0, arm.stimulus))
+        events = digits._events_of(sheet, arm, cell.way, score.threshold, 7)
+        one = simulate_digits(mnist, seventh, arm, cell.way, score.threshold)
+        assert one.counts.tolist() == [[np.sum(sheet.cut(represent_all(events)[1])[0, p])
+                                        for p in (0, 1)]]  # fmt: skip
+        assert score.events == np.median(made.counts.sum(axis=1))
+        assert score.on_share == made.counts[:, 1].sum() / made.counts.sum()
+        assert score.accuracy == [
+            right_share([(made.images[kind], made.labels, seed, numbers)], recorded, kind)
+            for seed in range(2)
+        ]
+        folds = [[(recorded.images[kind][numbers % 3 != fold], recorded.labels[numbers % 3 != fold],
+                   seed, numbers[numbers % 3 == fold]) for fold in range(3)]
+                 for seed in range(2)]  # fmt: skip
+        assert found.ceiling[kind] == [right_share(one, recorded, kind) for one in folds]
+        assert score.p is None
+    monkeypatch.setattr(digits, "train_network", None)
+    again = run_digits(plan)
+    assert dataclasses.replace(again, seconds=found.seconds) == found
 
 
 @pytest.fixture(scope="module")

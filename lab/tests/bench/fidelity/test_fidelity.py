@@ -6,12 +6,15 @@ import math
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from texvent.errors import ConfigError
 from texvent.metrics.compare import compare
 from texvent.pipeline import video_to_events
 from texvent.settings.resolution import resolve
 from texvent.simulation.physical.threshold_map import read_threshold_map
+from texvent_lab.bench.fidelity.comparison import Comparison
 from texvent_lab.bench.fidelity.entries import Entry, choose_entries
 from texvent_lab.bench.fidelity.oracle_run import FidelityPlan, record_truths, run_fidelity
 from texvent_lab.bench.fidelity.results import read_report
@@ -221,3 +224,21 @@ def test_kinds_of_pixels_of_one_scene_count_as_one_window_over_scenes():
     overview = fidelity_tables(report).partition("##")[0]
     assert "| 0.143 [0.143, 0.143] |" in overview
     assert "over 6 scenes" in overview
+
+
+@given(seed=st.integers(0, 99), windows=st.sampled_from([4, 40]))
+def test_marks_tell_the_best_and_those_like_it_of_each_track(seed, windows):
+    noise = np.random.default_rng(seed).normal(0, 1e-3, (5, windows))
+    means = {"a": 0.5, "like a": 0.5 - 1e-9, "worse": 0.4, "alone": 0.9, "half": 0.99}
+    values = {one: (mean + row).tolist() for (one, mean), row in
+              zip(means.items(), noise, strict=True)}  # fmt: skip
+    values["like a"] = [a - 1e-9 * (-1) ** n for n, a in enumerate(values["a"])]
+    values["a"][0] += 1e-6
+    tracks = {"a": "frames", "like a": "frames", "worse": "frames", "alone": "true frames"}
+    found = Comparison(values, tracks, is_in_sequence=False)
+    unsure, worse = ("(?)", "(?)") if windows < 6 else ("(≈)", "")
+    marks = {one: found.mark(one) for one in values}
+    assert marks == {"a": "(best)", "like a": unsure, "worse": worse, "alone": "(best)", "half": ""}
+    two = {one: tracks[one] for one in ("a", "worse")}
+    assert [Comparison({one: values[one] for one in some}, some, is_in_sequence=False).mark("a")
+            for some in (two, {"a": "frames"})] == ["(best)", ""]  # fmt: skip

@@ -1,6 +1,7 @@
 """Arms that differ from one in a property of their clips, as a file says."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -8,7 +9,9 @@ import numpy as np
 import pytest
 
 from texvent.dataset import read_specification
+from texvent.dataset.specification.items import read_items
 from texvent.errors import ConfigError
+from texvent_lab.bench.clip_counts import with_count
 from texvent_lab.bench.objects.arms import Arm, read_factors
 from texvent_lab.bench.objects.plan import ObjectsPlan, Run
 from texvent_lab.bench.page import page_files
@@ -101,6 +104,15 @@ def test_thresholds_are_matched_fixed_or_drawn_per_clip(configs):
     logs = np.log([spread.threshold_of(str(number), 0.3) for number in range(2000)])
     assert logs.mean() == pytest.approx(np.log(0.3), abs=0.05)
     assert logs.std() == pytest.approx(0.5, rel=0.1)
+
+
+@pytest.mark.parametrize(("clips", "count"), [(None, 4), (1, 2), (3, 2), (4, 4), (9, 8)])
+def test_scene_files_share_the_clips_that_are_asked_for(configs, clips, count):
+    one = read_specification(configs / "table.toml")
+    (near,) = one.sources
+    far = replace(near, vary={**near.vary, "camera.position_m[1]": {"choice": [-0.8]}})
+    both = with_count(replace(one, sources=(near, far)), clips)
+    assert len(read_items(both).all) == count
 
 
 @pytest.mark.parametrize(

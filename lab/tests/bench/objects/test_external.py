@@ -52,9 +52,9 @@ def test_events_are_moved_to_the_next_frame(tmp_path):
     assert late.p.tolist() == events.p.tolist()
 
 
-@pytest.mark.torch
+@pytest.mark.long
+@pytest.mark.usefixtures("networks")
 def test_events_of_another_program_are_an_arm_at_the_threshold_that_fits(words, tmp_path, capsys):
-    pytest.importorskip("torch")
     run([*words, "--write-frames", str(tmp_path / "frames")])
     clips = sorted(one.name for one in (tmp_path / "frames").iterdir())
     assert [name.partition("-")[0] for name in clips] == ["table"] * 2 + ["turntable"] * 2
@@ -87,9 +87,8 @@ def test_events_of_another_program_are_an_arm_at_the_threshold_that_fits(words, 
     assert chosen["threshold"] == min(shares, key=lambda one: abs(shares[one] - target))
 
 
-@pytest.mark.torch
+@pytest.mark.usefixtures("networks")
 def test_files_that_are_not_of_the_clips_are_refused_before_any_work(words, tmp_path):
-    pytest.importorskip("torch")
     run([*words, "--write-frames", str(tmp_path / "frames")])
     folder = tmp_path / "events"
     folder.mkdir()

@@ -113,9 +113,8 @@ def test_a_locator_finds_what_it_was_trained_on():
     assert average_precision(found, truth, classes=("short", "long"), iou=(0.75,))[ALL] > 0.5
 
 
-@pytest.mark.torch
+@pytest.mark.usefixtures("networks")
 def test_the_command_scores_every_arm_and_goes_on(tmp_path, capsys):
-    pytest.importorskip("torch")
     write_specifications(tmp_path / "configs")
     write_frames(tmp_path / "frames")
     write_turntables(tmp_path / "turntables")

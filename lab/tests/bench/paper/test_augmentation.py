@@ -2,21 +2,24 @@
 
 import json
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from texvent.cli.app import main
+from texvent_lab.bench.jobs import no_progress
 from texvent_lab.bench.paper import augmentation
+from texvent_lab.bench.paper.config import PaperConfig
 from texvent_lab.train.classification.config import PREFIX
 
 from ...train.windowed_specification import TEXT
 from ...train.written_samples import write_recordings
 
 
-def write_streams(folder: Path) -> Path:
+def write_streams(folder: Path, per_class: int = 5) -> Path:
     """Recorded streams to train and test with, and simulated ones."""
-    write_recordings(folder, per_class=5)
+    write_recordings(folder, per_class=per_class)
     (folder / "val").rename(folder / "test")
     shutil.copytree(folder / "train", folder / "texvent")
     return folder
@@ -110,3 +113,61 @@ def test_images_are_learnt_from_recordings_alone_and_with_simulated_clips(
     assert all(0 < float(row["MSE ↓"]) < 1 for row in rows.values())
     assert rows["E2VID"] != rows["E2VID + 5 %"]
     assert "loss: L1 + 1 - SSIM" in capsys.readouterr().out
+
+
+@pytest.fixture
+def trainings(monkeypatch):
+    """Trainings by their folder's name, none of which is done; all have the same scores."""
+    found = {}
+
+    def last_scores(training, folder):
+        found[folder.name] = training
+        return {"accuracy": 0.25, "psnr": 20.0, "ssim": 0.5, "lpips": 0.125, "mse": 0.0625}
+
+    monkeypatch.setattr(augmentation, "_last_scores", last_scores)
+    return found
+
+
+def test_a_fifth_as_many_simulated_streams_are_learned_beside_the_recorded_ones(
+    tmp_path, trainings
+):
+    folder = write_streams(tmp_path / "streams", per_class=15)
+    config = PaperConfig(table=6, folder=folder, epochs=3, image_size="64x48")
+    found = augmentation.measure_recognition(config, no_progress)
+    assert {*found.rows} == {"Original", "with Texvent"}
+    assert all(row == dict.fromkeys(augmentation.CLASSIFIERS, "0.2500")
+               for row in found.rows.values())  # fmt: skip
+    assert "of 2 classes: guessing gives 0.5000" in found.notes[0]
+    assert len(trainings) == 2 * len(augmentation.CLASSIFIERS)
+    for column, network in augmentation.CLASSIFIERS.items():
+        alone, more = (trainings[f"{column}-{one}"] for one in ("train", "texvent"))
+        assert (alone.network.name, alone.schedule.epochs, alone.data.image_size) == (
+            network, 3, "64x48"
+        )  # fmt: skip
+        assert (alone.data.split, alone.data.validation_split) == ("train", "test")
+        assert (more.extra.recordings, more.extra.split, more.extra.per_class) == (
+            folder, "texvent", 3
+        )  # fmt: skip
+        assert replace(more, extra=alone.extra) == alone != more
+
+
+def test_reconstruction_is_learned_without_and_with_simulated_clips(
+    tmp_path, trainings, pan_folder
+):
+    config = PaperConfig(
+        table=3, recordings=str(pan_folder), specification=tmp_path / "spec.toml", epochs=2
+    )
+    found = augmentation.measure_augmented_reconstruction(config, no_progress)
+    titles = ["PSNR ↑", "SSIM ↑", "LPIPS ↓", "MSE ↓"]
+    assert len(found.rows) == len(trainings) == 6
+    for row, (folder, one) in zip(found.rows, trainings.items(), strict=True):
+        assert (folder, row.endswith(" + 5 %")) == (
+            row.replace(" ", ""), one.extra.specification == tmp_path / "spec.toml"
+        )  # fmt: skip
+        assert augmentation.RECONSTRUCTORS[row.removesuffix(" + 5 %")] == one.network.name
+        assert list(found.rows[row].items()) == list(
+            zip(titles, ["20.0000", "0.5000", "0.1250", "0.0625"], strict=True)
+        )
+        assert (one.data.crop, one.data.length, one.extra.share, one.schedule.epochs) == (
+            48, 20, 0.05, 2
+        )  # fmt: skip

@@ -2,7 +2,9 @@
 
 import dataclasses
 import json
+import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -364,3 +366,25 @@ def test_all_tables_become_one_document_and_one_page(tmp_path, monkeypatch, caps
     assert not (tmp_path / "paper.svg").exists()
     with pytest.raises(ConfigError, match="all takes every table; leave out"):
         PaperConfig(all=True, table=1)
+
+
+def test_streams_are_classified_as_n_imagenet_does(tmp_path, monkeypatch):
+    asked, (first, *_, last) = [], TABLES[9].columns
+
+    def evaluate(training, weights, hardware):
+        data = training.data
+        asked.append((data.recordings, weights, hardware.device, data.slice_events,
+                      data.image_size, training.network.name))  # fmt: skip
+        top_1 = {first.lower(): 0.75, last.lower(): 0.5}[data.validation_split]
+        return SimpleNamespace(scores={"accuracy": top_1, "top-5 accuracy": 1 - top_1 / 5})
+
+    monkeypatch.setitem(sys.modules, "texvent_lab.train.run", SimpleNamespace(evaluate=evaluate))
+    for name in (first.lower(), last.lower()):
+        (tmp_path / name / "tench").mkdir(parents=True)
+    config = PaperConfig(table=9, folder=tmp_path, weights=tmp_path / "w.pt")
+    found = measure_table(config, silent)
+    assert list(found.rows.values()) == [
+        {first: "0.7500", last: "0.5000"},
+        {first: "0.8500", last: "0.9000"},
+    ]
+    assert asked == [(tmp_path, tmp_path / "w.pt", "cpu", 30_000, "224x224", "resnet34")] * 2

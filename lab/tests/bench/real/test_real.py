@@ -1,6 +1,8 @@
 """Recordings of real sensors in the benchmark, on a small one made here in the usual layouts."""
 
 import json
+from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,6 +18,7 @@ from texvent_lab.bench.fidelity.table import fidelity_tables
 from texvent_lab.bench.page import page_files
 from texvent_lab.bench.real.recording import RecordingPart, adapt_settings, open_scene
 from texvent_lab.bench.real.run import HALVES, real_entries, run_real
+from texvent_lab.commands.bench import real
 from texvent_lab.frame_recordings import WITH_FRAMES, locate_source
 
 METRICS = ("stpp", "count_ratio")
@@ -128,3 +131,27 @@ def test_a_dsec_sequence_opens_as_a_scene_with_display_gamma(tmp_path):
     assert scene.frames_gamma == 2.2
     assert scene.video.size == scene.events.size == SensorSize(32, 24)
     assert (scene.scene, scene.offset_us) == ("seq", 0)
+
+
+def test_images_are_scored_as_the_options_of_the_command_say(pan_folder, monkeypatch):
+    asked = {}
+    monkeypatch.setattr(real, "find_network", lambda name: SimpleNamespace(name=name))
+    monkeypatch.setattr(real, "load_reconstructor", lambda *words: words)
+    monkeypatch.setattr(real, "reconstruction_tables", lambda report: "")
+    monkeypatch.setattr(real, "run_reconstruction", lambda recordings, scorer, progress:
+                        asked.update(name=recordings[0].name, scorer=scorer))  # fmt: skip
+    words = [str(pan_folder), "--network", "firenet", "--weights", "w.pt", "--start", "0.5"]
+    words += ["--seconds", "0.75", "--match-rate", "--frames-gamma", "1.5", "--simulators", "esim"]
+    real.run([*words, "--interpolations", "none,flow", "--quiet"])
+    scorer, plan = asked["scorer"], asked["scorer"].plan
+    assert (asked["name"], scorer.reconstructor) == (pan_folder.name, ("firenet", Path("w.pt")))
+    assert [one.name for one in plan.entries] == ["esim, none", "esim, flow"]
+    assert (plan.start_s, plan.seconds, plan.is_rate_matched, plan.frames_gamma) == (
+        0.5, 0.75, True, 1.5
+    )  # fmt: skip
+    real.run([str(pan_folder), "--network", "firenet", "--quiet"])
+    plan = asked["scorer"].plan
+    assert {one.interpolate for one in plan.entries} == {"flow"}
+    assert (plan.start_s, plan.seconds, plan.is_rate_matched, plan.frames_gamma) == (
+        0.0, 4.0, False, 1.0
+    )  # fmt: skip

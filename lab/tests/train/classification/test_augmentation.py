@@ -1,16 +1,12 @@
 """Changed copies of recordings, by hand and by properties."""
 
 import numpy as np
-import pytest
 from tests.represent.definitions import rows
 
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent_lab.train.classification.config import Augmentation
 from texvent_lab.train.classification.samples import augment, take_run
-
-pytestmark = pytest.mark.torch
-pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
 
 class Chance:

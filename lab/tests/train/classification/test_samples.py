@@ -3,7 +3,6 @@
 import json
 from pathlib import Path
 
-import numpy as np
 import pytest
 from tests.dataset.stored.written_set import write_shard
 
@@ -15,8 +14,7 @@ from ..written_samples import SIZE, bar, write_bars, write_recordings
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
-from texvent_lab.train.classification.config import ClassData, ClassificationConfig  # noqa: E402
-from texvent_lab.train.classification.samples import open_training, open_validation  # noqa: E402
+from texvent_lab.train.classification.config import ClassificationConfig  # noqa: E402
 from texvent_lab.train.classification.task import ClassificationTask  # noqa: E402
 from texvent_lab.train.run import read_training  # noqa: E402
 
@@ -52,83 +50,6 @@ def error_of(path: Path, capsys: pytest.CaptureFixture[str], *words: str) -> str
 
 
 RECORDED = 'recordings = "rec", validation_split = "val"'
-
-
-@pytest.mark.parametrize(("format", "sensor"), [("npz", ""), ("bin", ', sensor = "16x12"')])
-def test_recordings_of_any_format_are_read(tmp_path, format, sensor):
-    write_recordings(tmp_path / "rec", format=format)
-    samples = open_validation(config(write(tmp_path / "spec.toml", RECORDED + sensor)))
-    assert samples.class_number.tolist() == [0, 0, 0, 0, 1, 1, 1, 1]
-    for place in range(len(samples)):
-        assert samples.events(place).equals(bar(place // 4, 100 + place % 4))
-
-
-def test_recorded_and_simulated_samples_are_mixed(tmp_path):
-    write_recordings(tmp_path / "rec")
-    write_bars(tmp_path / "made")
-    path = write(
-        tmp_path / "mixed.toml",
-        RECORDED + ", per_class = 2",
-        'extra = {folder = "made", per_class = 3}',
-    )
-    chosen = open_training(config(path), open_validation(config(path)))
-    assert chosen.labels == ("bus", "car")
-    assert np.bincount(chosen.source).tolist() == [4, 6]
-    assert np.bincount(chosen.class_number).tolist() == [5, 5]
-    # Labels of a made set are numbered otherwise: bus, car, dog.
-    for place in range(len(chosen)):
-        events = chosen.events(place)
-        assert events.size == SIZE
-        assert (events.x.mean() > 8) == chosen.class_number[place]
-    assert train(path) == 0
-    assert json.loads((tmp_path / "mixed" / "history.json").read_text())["epochs"]
-
-
-def test_few_of_each_class_are_drawn_by_the_seed(tmp_path):
-    write_recordings(tmp_path / "rec", per_class=9)
-    paths = [
-        write(tmp_path / f"{seed}.toml", f"{RECORDED}, per_class = 3", f"seed = {seed}")
-        for seed in (0, 0, 1)
-    ]
-    numbers = [
-        open_training(config(path), open_validation(config(path))).number.tolist() for path in paths
-    ]
-    assert len(numbers[0]) == 6
-    assert numbers[0] == numbers[1] != numbers[2]
-
-
-def test_of_equal_sources_each_draws_its_own(tmp_path):
-    write_recordings(tmp_path / "rec", per_class=9)
-    extra = 'extra = {recordings = "rec", per_class = 3}'
-    path = write(tmp_path / "spec.toml", f"{RECORDED}, per_class = 3", extra)
-    chosen = open_training(config(path), open_validation(config(path)))
-    drawn = {tuple(chosen.number[chosen.source == source]) for source in range(2)}
-    assert len(drawn) == 2
-
-
-def test_only_the_first_classes_are_told_apart(tmp_path):
-    write_recordings(tmp_path / "rec")
-    for split in ("train", "val"):
-        (tmp_path / "rec" / split / "ape").mkdir()
-        bar(0, 7).save(tmp_path / "rec" / split / "ape" / "a.npz")
-    path = write(tmp_path / "two.toml", f"{RECORDED}, classes = 2")
-    validation = open_validation(config(path))
-    assert validation.labels == ("ape", "bus")
-    assert len(open_training(config(path), validation)) == 5
-    assert len(validation) == 5
-
-
-def test_polarity_is_exchanged_where_it_is_asked_for(tmp_path):
-    write_recordings(tmp_path / "rec")
-    plain, flipped = (
-        open_validation(ClassificationConfig(data=ClassData(
-            recordings=tmp_path / "rec", validation_split="val", flip_polarity=is_flipped)))
-        for is_flipped in (False, True)
-    )  # fmt: skip
-    for place in range(len(plain)):
-        one, two = plain.events(place), flipped.events(place)
-        np.testing.assert_array_equal(one.p + two.p, 1)
-        np.testing.assert_array_equal(one.x, two.x)
 
 
 def test_images_have_the_size_that_is_asked_for_whatever_the_sensor(tmp_path):
