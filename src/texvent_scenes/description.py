@@ -31,6 +31,8 @@ class IndexedRelation:
     """Stated time at which an act begins, s."""
     direction: str | None = None
     """Stated way of who kicks, throws or runs into something."""
+    is_caught: bool = False
+    """Whether the target of what is sent catches it."""
 
 
 SEEN = "seen"

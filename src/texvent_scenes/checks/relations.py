@@ -97,7 +97,7 @@ def find_violations(
         if one.kind in ("past", "overtake") and side in ("left", "right"):
             yield Violation("placement", side, f"{names[one.subject]} passing on the {side}")
         kind = _rule_for(one.kind, *(description.objects[n] for n in (one.subject, one.targets[0])))
-        kind = "sent" if who != one.subject else kind
+        kind = "catch" if one.is_caught else "sent" if who != one.subject else kind
         kind = "with" if who in queues and kind in PLACING else kind
         if kind not in (*RULES, "between") or one.subject in one.targets:
             continue
@@ -126,8 +126,10 @@ def find_violations(
             targets = " and ".join(names[target] for target in one.targets)
             said = _SAID.get(one.kind, one.kind)
             line = f"{names[one.subject]} {said} {targets}"
+            line = f"{names[who]} caught by {targets}" if one.is_caught else line
             line += f": {sum(passed)} of {len(passed)}" if is_part and any(passed) else ""
-            yield Violation("relation", one.kind, line if own and others else "")
+            said = "catch" if one.is_caught else one.kind
+            yield Violation("relation", said, line if own and others else "")
             yield from _list_read_as(one.kind, description)
     passing = {one.subject for one in description.relations if one.kind in ("past", "overtake")}
     led = {target for one in description.relations for target in one.targets}

@@ -136,11 +136,25 @@ def test_every_cell_lists_the_rectangles_that_touch_it_in_order(rectangles):
             assert found.tolist() == expected
 
 
-def test_only_waves_higher_than_usual_foam_and_foam_is_light():
-    def sea(height):
+def test_only_waves_higher_than_usual_foam_and_higher_ones_foam_more():
+    def share(height):
         scene = HandScene((), environment_base=replace(day(Ground.SEA), wave_height=height))
-        return render(scene, 0.3, SensorSize(64, 48)).astype(int)
+        seas = [render(scene, 2.0 * at, SensorSize(64, 48))[28:] for at in range(12)]
+        return np.mean([sea.min(axis=2) > 180 for sea in seas])
 
-    foam = sea(1.0 + 1e-6) - sea(1.0)
-    assert foam.min() > -3
-    assert foam.max() > 50
+    assert share(1.0) == 0.0
+    assert share(1.0 + 1e-6) < 0.002 < share(1.5) < share(4.0)
+
+
+@pytest.mark.parametrize("ground", [Ground.SEA, Ground.LAKE])
+@pytest.mark.parametrize("height", [0.5, 1.0, 1.25, 2.0, 4.0, 8.0])
+def test_waves_mirror_the_sky_and_not_land_and_foam_on_few_crests(ground, height):
+    deep = np.array([0.02, 0.07, 0.12], dtype=np.float32)
+    place = replace(day(ground), wave_height=height, ground_second_colour=deep)
+    if ground == Ground.SEA:
+        place = replace(place, ground_colour=0.5 * deep)
+    scene = HandScene((), environment_base=replace(place, road_offset=np.array([0.0, -90.0])))
+    seas = [render(scene, 2.5 * at, SensorSize(64, 48))[32:] for at in range(8)]
+    water = np.array(seas, dtype=float)
+    assert (water[..., 1] <= 1.3 * water[..., 2]).all()
+    assert (water.min(axis=-1) > 190).mean() < 0.15

@@ -200,6 +200,17 @@ def test_a_state_changes_at_the_time_that_is_stated(row):
         np.testing.assert_array_equal(light(actor, time_s), after)
 
 
+@for_every(itertools.product(SWITCHED, (0.8, 1.0, 2.0), (0.5, 0.8, 1.0)))
+def test_a_state_does_not_change_in_a_clip_that_ends_before(row):
+    (noun, kind), start_s, duration_s = row
+    if start_s < duration_s:
+        return
+    before = show(noun, Motion(ANIMAL_ACTIVITIES[kind].from_state), duration_s=duration_s)
+    actor = show(noun, Motion(kind, start_s=start_s), duration_s=duration_s)
+    for time_s in (0.0, 0.5 * duration_s, duration_s - 1e-6, duration_s):
+        np.testing.assert_array_equal(light(actor, time_s), light(before, 0.2))
+
+
 @for_every(itertools.product(SWITCHED, (0.6, 1.1)))
 def test_a_state_lasts_up_to_the_next(row):
     (noun, kind), start_s = row

@@ -79,7 +79,7 @@ def _feet(strip: Strip, patch: Patch) -> tuple[float, float]:
 
 
 @jit(error_model="numpy", inner=True)
-def _inside_share(instant: Record, strip: Strip, foot: float) -> float:
+def inside_share(instant: Record, strip: Strip, foot: float) -> float:
     """Share of a pixel that shows the strip rather than what lies beside it."""
     half = instant.road[2]
     if instant.ground in (2, _CITY):
@@ -137,9 +137,12 @@ def _foam_share(instant: Record, strip: Strip, feet: tuple[float, float]) -> flo
     behind = place - math.floor(place)
     patchy = noise_2d(0.5 * strip[0], 0.9 * seaward, 6)
     sharp = _BREAKERS_M / max(feet[1], 0.5)
-    line = smooth((0.24 + 0.26 * patchy - behind) * min(sharp, 6.0) + 0.5)
+    lace = noise_2d(1.9 * strip[0], 1.9 * seaward, 7) + noise_2d(4.3 * strip[0], 4.3 * seaward, 8)
+    width = 0.1 + 0.22 * patchy + 0.08 * lace * detail_fade(1.9 * max(feet[0], feet[1]))
+    line = smooth((width - behind) * min(sharp, 6.0) + 0.5)
     near = math.exp(-far / (8.0 * instant.wave_height))
-    return 0.9 * near * (0.15 + (line - 0.15) * detail_fade(feet[1] / _BREAKERS_M))
+    high = 0.9 * (1.0 - 1.0 / instant.wave_height)
+    return high * near * (0.08 + (line - 0.08) * detail_fade(feet[1] / _BREAKERS_M))
 
 
 @jit(error_model="numpy", inner=True)
@@ -186,13 +189,13 @@ def _road_look(
     """A road with those that cross it, and what lies beside it."""
     half = instant.road[2]
     feet = _feet(strip, patch)
-    inside = _inside_share(instant, strip, feet[1])
+    inside = inside_share(instant, strip, feet[1])
     other, other_feet, beyond = strip, feet, 0.0
     kerb = box_coverage(abs(strip[1]), half, half + 0.3, feet[1])
     for number in range(instant.crossing_count):
         place = _crossing_place(instant, number, x, y)
         spread = _feet(place, patch)
-        share = _inside_share(instant, place, spread[1])
+        share = inside_share(instant, place, spread[1])
         kerb = max(kerb, box_coverage(abs(place[1]), half, half + 0.3, spread[1]))
         if share > beyond:
             other, other_feet, beyond = place, spread, share
@@ -239,7 +242,7 @@ def strip_look(
     if instant.ground not in (_RIVER, _LAKE):
         return _road_look(instant, x, y, patch, axes, strip)
     feet = _feet(strip, patch)
-    wet = _inside_share(instant, strip, feet[1])
+    wet = inside_share(instant, strip, feet[1])
     if wet >= 1.0:
         return _water(instant, strip, axes, view_up, _foam_share(instant, strip, feet))
     land = land_look(instant, x, y, axes)
@@ -259,12 +262,12 @@ def glossy_share(instant: Record, point: Vector, foot: float) -> tuple[float, fl
     `foot` is the length that a pixel covers, metres.
     """
     if instant.ground in (_RIVER, _LAKE):
-        return _inside_share(instant, strip_place(instant, point[0], point[1]), foot), 0.05
+        return inside_share(instant, strip_place(instant, point[0], point[1]), foot), 0.05
     if instant.wetness == 0.0 or instant.ground not in (0, 2, _CITY):
         return 0.0, 0.0
     share = 1.0
     if instant.ground == 2:
-        share = _inside_share(instant, strip_place(instant, point[0], point[1]), foot)
+        share = inside_share(instant, strip_place(instant, point[0], point[1]), foot)
     puddle = 0.0
     if share > 0.0:
         hollow = noise_2d(0.31 * point[0], 0.31 * point[1], 7)

@@ -22,6 +22,7 @@ from texvent_scenes.raycast.shading.reflection import (
     fresnel,
     sea_light,
     sky_light,
+    steepness,
     with_reflection,
 )
 from texvent_scenes.raycast.shading.texture import patch_extent, surface_look, surface_patch
@@ -309,7 +310,7 @@ def _wetted(instant: Record, light: Colour, point: Colour, view: Colour, wet: Co
     share, rough, foot = wet
     slope_x, slope_y = 0.0, 0.0
     if instant.ground in (_RIVER, _LAKE):
-        fade = 0.1 * instant.wave_height * detail_fade(0.8 * foot)
+        fade = 0.1 * steepness(instant.wave_height) * detail_fade(0.8 * foot)
         x, y, t = 0.8 * point[0], 1.3 * point[1], instant.time
         slope_x = fade * noise_2d(x + 0.7 * t, y, 9)
         slope_y = fade * noise_2d(x, y - 0.6 * t, 10)

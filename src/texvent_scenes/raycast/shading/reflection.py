@@ -13,11 +13,12 @@ from texvent.runtime.jit import jit
 from texvent_scenes.raycast.addresses import mirrored_at
 from texvent_scenes.raycast.mirrored import REACH
 from texvent_scenes.raycast.records import Record
-from texvent_scenes.raycast.shading.ground import strip_place
+from texvent_scenes.raycast.shading.ground import inside_share, strip_place
 from texvent_scenes.raycast.shading.value_noise import (
     box_coverage,
     detail_fade,
     mix,
+    noise_2d,
     sky_colour,
     smooth,
 )
@@ -33,7 +34,7 @@ from texvent_scenes.raycast.vectors import (
 )
 from texvent_scenes.rendered_scene import Colour
 
-_NO_GROUND, _FLOOR, _CITY = 10, 6, 5
+_NO_GROUND, _FLOOR, _CITY, _RIVER, _LAKE = 10, 6, 5, 11, 12
 _PAVED: Colour = (0.34, 0.33, 0.32)
 _FOG_HEIGHT_M = 40.0
 """Fog and water above this height do not count for rays that go up."""
@@ -43,8 +44,9 @@ _SOFTEST = 0.5
 """Most that a mirrored image is blurred, radians."""
 _WAVE_BLUR = 0.15
 """Blur of what the sea mirrors, by the waves that are too small to be seen, radians."""
-_FOAM_FROM, _FOAM_STEEPNESS = 0.085, 5.0
-"""Sum of the waves' heights over their lengths, per wave height, from which on crests foam."""
+_FOAM_FROM, _FOAM_HIGH, _FOAM_LACE, _FOAM_STEEPNESS = 3.2, 1.8, 1.6, 0.35
+"""Sum of the waves, each of size 1, from which on crests foam, and how much higher that is for
+lower waves; what the lace of foam adds to it, and what the share of foam rises by."""
 
 
 @jit(error_model="numpy", inner=True)
@@ -126,8 +128,11 @@ def _land_light(instant: Record, point: Vector, direction: Vector, blur: float) 
     colour = triple(instant.colour)
     if instant.ground == _CITY:
         colour = _PAVED
+    place = along(point, direction, distance)
+    if instant.ground in (_RIVER, _LAKE):
+        wet = inside_share(instant, strip_place(instant, place[0], place[1]), 2.0 * blur * distance)
+        colour = mix(colour, triple(instant.second_colour), wet)
     if instant.ground in (2, 3, 5):
-        place = along(point, direction, distance)
         across = strip_place(instant, place[0], place[1])[1]
         half = instant.road[2]
         road = box_coverage(across, -half, half, 0.1 + 2.0 * blur * distance)
@@ -209,14 +214,22 @@ def with_reflection(
         rays: point, unit direction of the camera's ray, unit normal.
         base: share that is mirrored straight on; 0 = there is no layer.
         blur: as for `mirrored_light`.
-        own: as for `mirrored_light`.
+        own: as for `mirrored_light`; 0 is the ground.
     """
     point, view, normal = rays
     facing = max(-dot(view, normal), 0.0)  # a bent normal may turn away
     share = fresnel(base, facing)
     direction = along(view, normal, 2.0 * facing)
+    if own == 0:  # what the ground sends down meets it again
+        direction = (direction[0], direction[1], abs(direction[2]))
     seen = mirrored_light(instant, point, direction, min(blur, _SOFTEST), own, 0.0)
     return mix(light, seen, share)
+
+
+@jit(error_model="numpy", inner=True)
+def steepness(wave_height: float) -> float:
+    """Factor of the slopes of waves: those that are higher than usual are longer too."""
+    return min(wave_height, 1.0) * max(wave_height, 1.0) ** 0.25
 
 
 @jit(error_model="numpy", inner=True)
@@ -224,7 +237,8 @@ def sea_light(instant: Record, point: Colour, view: Colour, footprint: Colour) -
     """Moving waves that mirror the sky; waves smaller than a pixel fade out. High ones foam."""
     slope_x, slope_y, crest = 0.0, 0.0, 0.0
     length, angle = 9.0 * instant.wave_height, 0.4
-    strength = 0.042 * instant.wave_height
+    steep = steepness(instant.wave_height)
+    strength = 0.042 * steep
     for _ in range(7):
         wave = 2.0 * math.pi / length
         cosine, sine = math.cos(angle), math.sin(angle)
@@ -254,7 +268,11 @@ def sea_light(instant: Record, point: Colour, view: Colour, footprint: Colour) -
     half = along(triple(instant.sun), view, -1.0)
     shine = dot(half, normal) / math.sqrt(dot(half, half) + 1e-12)
     if instant.wave_height > 1.0:
-        foam = 0.8 * smooth(_FOAM_STEEPNESS * (crest - _FOAM_FROM * instant.wave_height))
+        x, y, foot = point[0], point[1], max(footprint[0], footprint[1])
+        lace = noise_2d(1.7 * x, 1.7 * y, 7) + 0.7 * noise_2d(4.1 * x, 4.1 * y, 8)
+        high = crest / (0.042 * steep) + _FOAM_LACE * lace * detail_fade(1.7 * foot)
+        least = _FOAM_FROM + _FOAM_HIGH / instant.wave_height
+        foam = 0.8 * smooth(_FOAM_STEEPNESS * (high - least))
         white = along(triple(instant.ambient), sun_colour, 0.6)
         colour = mix(colour, white, foam)
     return along(colour, sun_colour, 0.5 * max(shine, 0.0) ** 60)

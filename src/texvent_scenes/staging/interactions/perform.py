@@ -69,7 +69,7 @@ def perform_acts(
     sent = {one.subject: one for one in acts if one.kind in SENT}
     for each in description.relations:
         if each.kind == "towards" and each.subject in sent:
-            _send_to(cast, sent[each.subject], description.objects, each.targets[0], duration_s)
+            _send_to(cast, sent[each.subject], each, description.objects, duration_s)
     _bear_down(cast, description.relations)
     _swing_riders(cast, description.relations)
     _carry_along(cast, placed, description.relations)
@@ -125,10 +125,11 @@ def _turn_queues(cast: dict[int, Actor], description: SceneDescription) -> None:
 
 
 def _send_to(
-    cast: dict[int, Actor], act: IndexedRelation, said: Sequence[SceneObject], goal: int,
-    duration_s: float,
+    cast: dict[int, Actor], act: IndexedRelation, way: IndexedRelation,
+    said: Sequence[SceneObject], duration_s: float,
 ) -> None:  # fmt: skip
     """Send a kicked, thrown or rolled body back from what is fixed, or to who is alive."""
+    goal = way.targets[0]
     things, goals = ([n for n, one in cast.items() if one.object_index == index]
                      for index in (act.targets[0], goal))  # fmt: skip
     for thing in things if goals else ():
@@ -144,8 +145,9 @@ def _send_to(
             )  # fmt: skip
         elif wall.track.is_resting:
             cast[thing], cast[goals[0]] = striking.deliver(
-                cast[thing], wall, duration_s, is_thrown=act.kind == "throw",
-                is_placed=said[goal].position_m is not None,
+                cast[thing], wall, duration_s,
+                is_thrown=act.kind == "throw" or (way.is_caught and act.kind != "roll"),
+                is_placed=said[goal].position_m is not None, is_taken=way.is_caught,
             )  # fmt: skip
 
 

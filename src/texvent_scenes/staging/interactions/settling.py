@@ -89,12 +89,13 @@ def _sent_on(relations: Sequence[IndexedRelation]) -> list[IndexedRelation]:
         thing = one.targets[0] if one.kind == "catch" else one.subject
         sender, sent = senders.get(thing, one.subject), one
         if one.kind == "catch" and sender != one.subject:
-            sent = IndexedRelation("towards", sender, (one.subject,))
+            sent = IndexedRelation("towards", sender, (one.subject,), is_caught=True)
         elif one.kind == "towards" and sender != one.subject:
             sent = replace(one, subject=sender)
         if sent == one or sent not in found:
             found.append(sent)
-    return found
+    caught = [replace(one, is_caught=False) for one in found if one.is_caught]
+    return [one for one in found if one.is_caught or one not in caught]
 
 
 def _stated(act: IndexedRelation, objects: Sequence[SceneObject]) -> IndexedRelation:

@@ -209,16 +209,22 @@ def _leap(subject: Actor, contact_s: float) -> Track:
 
 def _carry(act: Impact, subject: Actor, thing: Actor, contact_s: float) -> Track:
     """At rest below the place of the body that has it before or after, and there as it was."""
-    axes, home = partial(subject.anchor, act.by), subject.track.at(0.0)
-    x, y, _ = point(axes(contact_s)[:, 3])
+    home = subject.track.at(0.0)
+    x, y, _ = point(subject.anchor(act.by, contact_s)[:, 3])
     low_m = home.position[2] + act.top_m * size_of(subject.model)
     rest = steady((x, y, low_m + thing.foot_m), home.yaw, activity="stand")
-    world = (axes(contact_s), rest.at(0.0).to_world())
-    square = (np.vstack([one, [0.0, 0.0, 0.0, 1.0]]) for one in world)
-    anchor = Attachment(subject.track, axes, np.linalg.solve(*square)[:3])
+    anchor = _grasp(act.by, subject, rest, contact_s)
     if act.carried == "after":
         return replace(rest, anchor=anchor, grab_s=contact_s)
     return replace(rest, anchor=anchor, release_s=contact_s)
+
+
+def _grasp(by: str, subject: Actor, path: Track, contact_s: float) -> Attachment:
+    """The bond to a place of the body of what is where its path takes it at the contact."""
+    axes = partial(subject.anchor, by)
+    world = (axes(contact_s), path.at(contact_s).to_world())
+    square = (np.vstack([one, [0.0, 0.0, 0.0, 1.0]]) for one in world)
+    return Attachment(subject.track, axes, np.linalg.solve(*square)[:3])
 
 
 def _meet(thing: Actor, tip: Float64Array, home: BodyState) -> Vector:
@@ -286,9 +292,12 @@ def rebound(thing: Actor, wall: Actor, *, is_turned: bool, is_moved: bool) -> tu
 
 
 def deliver(
-    thing: Actor, receiver: Actor, duration_s: float, *, is_thrown: bool, is_placed: bool = False
-) -> tuple[Actor, Actor]:
+    thing: Actor, receiver: Actor, duration_s: float, *, is_thrown: bool, is_placed: bool = False,
+    is_taken: bool = False,
+) -> tuple[Actor, Actor]:  # fmt: skip
     """Both, the thing ending at who receives it: caught if it is thrown, else before the feet.
+
+    A person takes up from there what `is_taken`.
 
     The receiver stands on its way and faces it; it flies to one who is placed.
     """
@@ -329,6 +338,12 @@ def deliver(
         rest = replace(
             rest, grips=(("left hand", (arm_m, side, high)), ("right hand", (arm_m, -side, high)))
         )
+    if is_taken and person and not is_thrown:
+        taken_s = sent_s + flown_s + last.ramp_s
+        rest = replace(steady(place, rest.yaw, activity="pick up"), contact_s=taken_s)
+        receiver = moving(receiver, rest)
+        anchor = _grasp("hands", receiver, sent, taken_s)
+        return replace(thing, track=replace(sent, anchor=anchor, grab_s=taken_s)), receiver
     return replace(thing, track=sent), moving(receiver, rest)
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from itertools import zip_longest
 
 from texvent_scenes.description import SPIN_RATE_HZ, STANDING
 from texvent_scenes.models.activities import (
@@ -119,16 +118,16 @@ def build_path(
 def _switched(phases: Sequence[Phase], first: Motion) -> Iterator[Phase]:
     """The phases; what switches to another state at a stated time is in it from then on.
 
-    What rests before its `first` motion is in the state from which it switches.
+    What rests before its `first` motion is in the state from which it switches, also where the
+    clip ends before.
     """
-    for one, after in zip_longest(phases, phases[1:]):
-        now = ANIMAL_ACTIVITIES.get(one.motion.kind)
-        later = ANIMAL_ACTIVITIES.get(after.motion.kind) if after is not None else None
-        kind = one.motion.kind
+    before = ANIMAL_ACTIVITIES.get(first.kind)
+    for one in phases:
+        now, kind = ANIMAL_ACTIVITIES.get(one.motion.kind), one.motion.kind
         if now is not None and now.to_state and one.motion.start_s is not None:
             kind = now.to_state
-        elif one is phases[0] and one.motion is not first and later is not None:
-            kind = later.from_state or kind
+        elif one is phases[0] and one.motion is not first and before is not None:
+            kind = before.from_state or kind
         yield replace(one, motion=replace(one.motion, kind=kind))
 
 

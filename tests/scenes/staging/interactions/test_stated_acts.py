@@ -157,6 +157,23 @@ def test_what_is_sent_comes_from_the_sender_to_who_receives_it_wherever_both_are
 
 
 @for_every(itertools.product(
+    (("kick", "ball"), ("kick", "football"), ("throw", "ball"), ("roll", "ball")),
+    ("woman", "goalkeeper"), (None, (2.5, 0.0), (0.5, 4.0)), (False, True),
+))  # fmt: skip
+def test_what_one_sends_is_in_the_hands_of_who_catches_it_at_the_end(row):
+    (kind, noun), other, there, is_aimed = row
+    sent = (Relation(kind, (noun,)), *(Relation("towards", (other,)),) * is_aimed)
+    who = SceneObject("man", position_m=None if there is None else (0.0, 0.0), relations=sent)
+    keeper = SceneObject(other, position_m=there, relations=(Relation("catch", (noun,)),))
+    bodies = accepted(who, SceneObject(noun), keeper)
+    assert bodies is not None
+    _, ball, last = sorted(bodies, key=lambda one: one.object_index)
+    hands = last.anchor("hands", 1.99)[:, 3]
+    assert np.linalg.norm(ball.middle(1.99) - hands) < 0.5 * ball.model.height + 0.2
+    assert np.linalg.norm(ball.middle(0.0) - last.anchor("hands", 0.0)[:, 3]) > 0.8
+
+
+@for_every(itertools.product(
     [kind for kind in KINDS if kind in IMPACTS], [kind for kind in KINDS if kind in IMPACTS],
     (0, 1),
 ))  # fmt: skip
