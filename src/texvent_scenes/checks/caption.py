@@ -165,9 +165,15 @@ def _tell_acts(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
     if way == "stays" and not acts and staged.departure(one).max() > _STIRS * one.size_m:
         way = "stays, parts of it move"
     rates = [each.fastest_hz for each in staged.scene.lamps.lit
-             if each.actor.instance == one.instance]  # fmt: skip
+             if each.actor.instance == one.instance and not _SWITCHING & {*acts}]  # fmt: skip
     facts += [f"its light changes at {max(rates):.3g} Hz"] if any(rates) else []
     return ", ".join((*facts, way))
+
+
+_SWITCHING = frozenset(
+    one for name, act in ANIMAL_ACTIVITIES.items() if act.to_state for one in (name, act.to_state)
+)
+"""Acts that say themselves when a light changes."""
 
 
 def _tell_way(staged: StagedClip, one: Actor) -> str:

@@ -171,3 +171,11 @@ def test_every_place_is_named_with_its_light(name):
 def test_small_motions_have_a_line_whichever_way_they_go(noun, kind):
     _, (line,), _ = lines({"noun": noun, "motions": [{"kind": kind}]}, camera={"framing": "close"})
     assert re.search(r"(goes .*\d m.* at |stays|turns by)", line), line
+
+
+@pytest.mark.parametrize("act", ["turn red", "turn green", "turn amber"])
+@pytest.mark.parametrize("timed", [{}, {"start_s": 0.5}])
+def test_a_light_that_changes_once_has_no_rate(act, timed):
+    _, (line,), _ = lines({"noun": "traffic light", "motions": [{"kind": act, **timed}]})
+    assert "acts: " in line
+    assert "Hz" not in line, line

@@ -1,8 +1,10 @@
 """Parts that turn: solids of revolution about an axle belong to the body that turns on it."""
 
-import numpy as np
+import itertools
 
+import numpy as np
 from tests.scenes.every_row import for_every
+
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.protocol import ModelPart, Pose
 from texvent_scenes.rendered_scene import Shape
@@ -22,7 +24,7 @@ def parts_of(name: str) -> list[list[ModelPart]]:
 
 def axle(*places: np.ndarray):
     """Direction and a point of the line that a part turns about steadily; None: it does not."""
-    turns = [b[:, :3] @ np.linalg.inv(a[:, :3]) for a, b in zip(places, places[1:], strict=False)]
+    turns = [b[:, :3] @ np.linalg.inv(a[:, :3]) for a, b in itertools.pairwise(places)]
     rest = np.eye(3) - turns[0]
     if np.abs(rest).max() < 1e-9 or not np.allclose(*turns, atol=1e-7):
         return None

@@ -141,8 +141,8 @@ def _foam_share(instant: Record, strip: Strip, feet: tuple[float, float]) -> flo
     width = 0.1 + 0.22 * patchy + 0.08 * lace * detail_fade(1.9 * max(feet[0], feet[1]))
     line = smooth((width - behind) * min(sharp, 6.0) + 0.5)
     near = math.exp(-far / (8.0 * instant.wave_height))
-    high = 0.9 * (1.0 - 1.0 / instant.wave_height)
-    return high * near * (0.08 + (line - 0.08) * detail_fade(feet[1] / _BREAKERS_M))
+    most = 0.9 * near * (0.08 + (line - 0.08) * detail_fade(feet[1] / _BREAKERS_M))
+    return most - most / float(instant.wave_height)
 
 
 @jit(error_model="numpy", inner=True)

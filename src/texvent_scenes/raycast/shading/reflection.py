@@ -229,7 +229,7 @@ def with_reflection(
 @jit(error_model="numpy", inner=True)
 def steepness(wave_height: float) -> float:
     """Factor of the slopes of waves: those that are higher than usual are longer too."""
-    return min(wave_height, 1.0) * max(wave_height, 1.0) ** 0.25
+    return min(wave_height, 1.0) * math.sqrt(math.sqrt(max(wave_height, 1.0)))
 
 
 @jit(error_model="numpy", inner=True)

@@ -50,6 +50,10 @@ def fallen_m(model: Model, duration_s: float) -> float:
     return min(max(height, model.height), max(1.2 * model.height, 0.5))
 
 
+_STANDING_JUMP = 0.45
+"""Height of a person's jump on the spot, who draws up the feet too, as a share of a leap's."""
+
+
 class FlightKeys:
     """Collects keys, the first without duration; knows heading and height at the last one."""
 
@@ -127,6 +131,8 @@ class FlightKeys:
             speed = motion.speed_m_s
             self._start(speed)
         activity = "jump" if motion.kind == "jump" and not speed else "move"
+        if activity == "jump" and self._noun.name in PERSON_NOUNS:
+            height *= _STANDING_JUMP
         ramp = min(RAMP_S, 0.35 * span)
         self._append(Key(span, speed, 0.0, 0.0, ramp, activity, height))
 
