@@ -22,7 +22,7 @@ from tests.interpolate.motion.scenes import (
 )
 
 from texvent.frames import Frame, MotionVectors
-from texvent.interpolate.motion.interpolator import MotionPair
+from texvent.interpolate.motion.interpolator import MotionPair, moving_part
 from texvent.interpolate.motion.paths import reverse_vectors
 
 FLAT = np.full((HEIGHT, WIDTH), BACKGROUND_M, np.float32)
@@ -218,3 +218,20 @@ def test_levels_stay_within_those_of_the_frames(x, y, place, depth):
     low, high = min(first.luma.min(), second.luma.min()), max(first.luma.max(), second.luma.max())
     assert image.min() >= low - 0.01
     assert image.max() <= high + 0.01
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_part_that_moves_holds_where_each_moving_pixel_is_and_goes(seed):
+    rng = np.random.default_rng(seed)
+    forward, backward = np.zeros((2, 60, 90, 2), np.float32)
+    row, column = rng.integers(2, 56), rng.integers(2, 86)
+    forward[row, column] = rng.uniform(-20, 20, 2)
+    backward[rng.integers(60), rng.integers(90)] = np.nan  # it is not in the other frame
+    rows, columns = moving_part(forward, backward)
+    y, x = np.argwhere(np.isnan(backward[..., 0]))[0]
+    end = np.add((row, column), forward[row, column][::-1])
+    for place in ((row, column), (y, x), end):
+        if ((np.floor(place) >= 0) & (np.ceil(place) < (60, 90))).all():
+            assert rows.start <= place[0] < rows.stop
+            assert columns.start <= place[1] < columns.stop
+    assert moving_part(*np.zeros((2, 60, 90, 2), np.float32))[0] == slice(60, 60)
