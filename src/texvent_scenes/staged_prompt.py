@@ -194,4 +194,5 @@ def _staged(
     unseen = find_unseen(scene, description, size, duration_s)
     held = find_held(description.claims, scene, description, unseen.gone, size, duration_s)
     clip = StagedClip(scene, description, size, duration_s)
-    return scene, unseen, *held, caption(clip, unseen.views)
+    shows_light = all(one.kind != "light" for one in unseen.violations)
+    return scene, unseen, *held, caption(clip, unseen.views, shows_light=shows_light)
