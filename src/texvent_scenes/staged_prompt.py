@@ -61,6 +61,8 @@ def stage(
     fewer = (re.fullmatch(r".* \(\d+ of (\d+)\)", one) for one in unseen.out_of_view)
     faults += tuple(Violation("count", float(one[1]), "") for one in fewer if one)
     others = {*_list_others(said.shown, description)}
+    if any(one.kind == "light" for one in faults):
+        others |= {*filter(_tells_light, said.shown)}  # "a sunny morning" in a hall
     shown = without_words([one for one in said.shown if one not in failed | others], faults)
     shown = (*shown, *sorted(held - {*said.shown}))
     lines = (*said.not_shown, *scene.not_shown,
@@ -112,6 +114,12 @@ def _list_others(words: Sequence[str], description: SceneDescription) -> Iterato
         if said and all(kind in one_of and not _are_alike(one_of[kind], value)
                         for kind, value in said):  # fmt: skip
             yield word
+
+
+def _tells_light(word: str) -> bool:
+    """Whether a word tells of nothing but the light."""
+    said = [kind for kind, _ in list_meanings(word)]
+    return bool(said) and set(said) == {"light"}
 
 
 def _names(word: str, nouns: Collection[str]) -> bool:
@@ -186,4 +194,5 @@ def _staged(
     unseen = find_unseen(scene, description, size, duration_s)
     held = find_held(description.claims, scene, description, unseen.gone, size, duration_s)
     clip = StagedClip(scene, description, size, duration_s)
-    return scene, unseen, *held, caption(clip, unseen.views)
+    shows_light = all(one.kind != "light" for one in unseen.violations)
+    return scene, unseen, *held, caption(clip, unseen.views, shows_light=shows_light)

@@ -63,24 +63,27 @@ picture from which on a body is in no part alone."""
 _SIDES = ("from behind", "from the side", "from the front")
 
 
-def caption(staged: StagedClip, views: Mapping[int, View]) -> tuple[str, ...]:
+def caption(
+    staged: StagedClip, views: Mapping[int, View], *, shows_light: bool = True
+) -> tuple[str, ...]:
     """Lines on the place, on each object and on the camera.
 
     Args:
         staged: the clip.
         views: instance id → the most that is seen of it.
+        shows_light: whether the picture tells the light that is said.
     """
     surfaces = list_surfaces(staged)
     bodies = [line for index in range(len(staged.description.objects))
               if (line := _tell_object(staged, index, views, surfaces))]  # fmt: skip
-    return (_tell_place(staged), *bodies, _tell_camera(staged))
+    return (_tell_place(staged, shows_light=shows_light), *bodies, _tell_camera(staged))
 
 
-def _tell_place(staged: StagedClip) -> str:
+def _tell_place(staged: StagedClip, *, shows_light: bool) -> str:
     """Place, light, weather, effects, scenery in view and share of the sky."""
     scene, said = staged.scene, staged.description
     name = said.place.name if said.place.name in scene.place.names else scene.place.names[0]
-    kind = said.light.kind
+    kind = said.light.kind if shows_light else None
     usual = "indoors" if scene.place.is_room else "by day"
     facts = [f"{name} {_LIGHTS.get(kind, f'by {kind}') if kind else usual}"]
     weather, amount = said.place.weather, said.place.weather_amount

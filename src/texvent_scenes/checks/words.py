@@ -65,6 +65,7 @@ from texvent_scenes.checks.phases import runs
 from texvent_scenes.checks.places import is_before_sky, shows_sky, shows_sun
 from texvent_scenes.checks.relation_rules import RULES
 from texvent_scenes.checks.staged_clip import StagedClip
+from texvent_scenes.checks.streets import are_many, gets_on, is_on_pavement
 from texvent_scenes.checks.water import is_above_way, wet_share
 from texvent_scenes.description import SEEN, Claim, SceneDescription
 from texvent_scenes.rendered_scene import Float64Array
@@ -382,12 +383,13 @@ CHECKS: Mapping[str, Callable[[StagedClip, Claim], bool]] = {
     "reverse": goes_back, "fall": falls, "water": _is_in_water, "descend": descends,
     "land": lands, "aside": goes_aside, "along": goes_along,
     "grip": handles_by_hand, "camera": is_camera_so, "stop": stops, "move": moves, "tip": tips,
-    "rounds": _of_parts(goes_round),
+    "rounds": _of_parts(goes_round), "way": gets_on,
     "turn": turns, "begin": begins, "near": _is_near, "pace": changes_pace,
     "in image": _stays_in_image, "run": runs, "out between": _leaves_gap,
     "on edge": _is_on_edge,
     "sky": lambda staged, _: shows_sky(staged.scene, staged.times),
     "sun": lambda staged, _: shows_sun(staged.scene, staged.times, staged.size),
+    "many": are_many, "pavement": is_on_pavement,
     "sky behind": _is_before_sky, "taken in": _is_taken_in,
     "sit at": _sits_at, "macro": is_macro, "overtaken": is_overtaken, "cover": _covers,
     "eye level": is_at_eye_level, "above way": is_above_way, "part": _tells_parts,

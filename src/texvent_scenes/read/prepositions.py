@@ -19,6 +19,7 @@ from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.draft.abilities import MEANS, Indices
 from texvent_scenes.read.draft.copies import part_ways
 from texvent_scenes.read.draft.scene_draft import SceneDraft
+from texvent_scenes.read.kept_ways import ALONG, OWN_BALL, claim_pavement, lead_bounces
 from texvent_scenes.read.parsing.groups import Group, Phrase, heads_of, nouns_of, words_of
 from texvent_scenes.read.parsing.lexicon import word_set
 from texvent_scenes.read.parsing.tokens import Token
@@ -40,14 +41,10 @@ _HITS = frozenset({"hit", "kick"})
 """Acts upon something that it meets at one instant."""
 _SENT_OFF = frozenset({"bounce", "jump", "throw"})
 """Motions against something that is reached: no pendulum swings so before a wall."""
-_OWN_BALL = frozenset({"bounce", "dribble", "juggle"})
-"""Activities with a ball that stays by who does them: it meets no wall."""
 _RAINED_ON = (
     "on", "above", "around", "past", "behind", "front", "beside", "through", "in", "against",
 )  # fmt: skip
 """Relations of what comes down everywhere."""
-_ALONG = ("along", "down", "up")
-"""Prepositions of ways that lead on."""
 SITTING = frozenset({"sit", *TO_AND_FROM_SEATS})
 """Motions of who is on a seat or on the ground."""
 _SMALL_SET = 0.45
@@ -62,8 +59,9 @@ def find_relation(draft: SceneDraft, phrase: Phrase, subjects: Indices) -> str:
     kind = "on" if token.text == "onto" and does & _LANDING else kind
     for motions in (draft.things[one]["motions"] for one in subjects if token.text == "onto"):
         motions += [{"kind": "stand"}] if motions and motions[-1]["kind"] == "jump" else []
+    lead_bounces(draft, token, subjects)
     sent = draft.acts(subjects)
-    has_ball = bool(does & {"throw", *_OWN_BALL}) and all(map(draft.walks, subjects))
+    has_ball = bool(does & {"throw", *OWN_BALL}) and all(map(draft.walks, subjects))
     sent_to = "" if has_ball or "throw" in does else "towards"  # it is not thrown
     is_sent = bool(sent or does & _SENT_OFF) or any(map(draft.goes, subjects))
     return sent_to if token.text == "against" and is_sent else kind
@@ -95,7 +93,7 @@ def lose_drift(draft: SceneDraft, after: Sequence[Phrase | Token]) -> None:
     for token in (one.preposition for one in after if isinstance(one, Phrase)):
         kinds = token.relations
         ways = kinds & word_set("things", "ways")
-        is_along = token.text in ("across", *_ALONG)
+        is_along = token.text in ("across", *ALONG)
         is_so = (is_blown and is_along) or any(is_rained_on(draft, token, one) for one in kinds)
         has_spout = bool(draft.effects) and draft.effects[-1]["source"] is not None
         is_so |= kinds == {"through"} and has_spout and draft.shows(token)
@@ -176,8 +174,9 @@ def go_to_place(
     for thing in (draft.things[one] for one in subjects if token.text == "of" and place.has_road):
         is_amid = thing.get("placement") == "centre" and draft.nouns[thing["noun"]].speed_m_s
         thing |= {"placement": "lane"} if is_amid else {}  # "in the middle of the road"
-    is_road = token.text in ("on", *_ALONG) and place in (PLACES["road"], PLACES["dirt road"])
+    is_road = token.text in ("on", *ALONG) and place in (PLACES["road"], PLACES["dirt road"])
     _keep_above(draft, token, place, moved or subjects)
+    claim_pavement(draft, token, heads, moved or subjects)
     for index in subjects if is_road else ():
         said = token.text == "on" and place is PLACES["road"]  # else a fence stands beside it
         if draft.walks(index) or (said and draft.noun(index).motion != "drive"):

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from texvent_scenes.description import SEEN
 from texvent_scenes.models.nouns import AFLOAT
 from texvent_scenes.models.places import PLACES, is_room
 from texvent_scenes.read.draft.scene_draft import SceneDraft, split_move
@@ -97,6 +96,7 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
     place = draft.parts["place"]
     name = head.all("place")[0].value
     name = place["name"] if _is_room_again(draft, head) else name
+    name = _in_the_open(draft, group, name)
     is_it = name in ("sky", place.get("name", name))
     for token in group.modifiers:
         _say_of_place(draft, token, name, is_it=is_it)
@@ -120,7 +120,8 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
     ):
         far = "city" if name == "skyline" else name
         place["backdrops"] = list(dict.fromkeys([*place.get("backdrops", ()), far]))
-        draft.show(head, *(one for one in group.modifiers if one.says("adverb", "placement")))
+        draft.mark(head, far if head.text in word_set("things", "stand_ins") else "shown")
+        draft.show(*(one for one in group.modifiers if one.says("adverb", "placement")))
     elif is_room(name) and place.get("name") == "indoor":
         place["name"] = name
         draft.show(head)
@@ -156,6 +157,15 @@ def _is_so_large(token: Token, name: str) -> bool:
     field, size = token.value("field")
     is_large = PLACES[name].hall_m > 0.0 or name in word_table("inherent")["wide"]
     return field == "size" and (is_large if size > 1.0 else is_room(name) and not is_large)
+
+
+def _in_the_open(draft: SceneDraft, group: Group, name: str) -> str:
+    """The place itself, or the same in the open: "an outdoor court"."""
+    for token in (*group.modifiers, *group.unknown):
+        if token.text in word_set("things", "in_the_open"):
+            name = word_table("outdoors").get(name, name)
+            draft.show(*([] if is_room(name) else [token]))
+    return name
 
 
 def _true_of(token: Token) -> Sequence[str]:
@@ -208,4 +218,4 @@ def _fill_place(draft: SceneDraft, token: Token, names: Sequence[str]) -> None:
     brought = next(filter(None, said), full.get(token.text, {}))
     for noun, count in brought.items():
         draft.show(token)
-        draft.claim(token, SEEN, "", [draft.add(noun, count)])
+        draft.claim(token, "many", noun, [draft.add(noun, count)])

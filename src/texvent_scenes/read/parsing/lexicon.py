@@ -288,7 +288,8 @@ def _list_amounts() -> Iterator[tuple[str, Sense]]:
 def _list_acting(row: Mapping[str, Any]) -> Iterator[str]:
     """Phrases of weather and effects with their verbs: "falling snow", "snow is drifting down"."""
     yield from row.get("alone", ())
-    for noun, phrase in product(row["nouns"], row["verbs"]):
+    verbs = [one for each in row["verbs"] for one in expand(each)]
+    for noun, phrase in product(row["nouns"], verbs):
         for words, form in list_forms(phrase):
             yield f"{noun} {words}"
             if form == "ing":

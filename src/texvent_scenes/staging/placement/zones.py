@@ -124,6 +124,8 @@ def keep_to_zones(
         work.keep_ashore(place.road_m if place.ground is Ground.RIVER else 0.0)
     if place.has_road and any(zone_of(one.noun) == "road" or one.goes_across for one in actors):
         work.use_lanes(0.5 * place.road_m, find_road(description, place, work.actors, 0.0))
+        held = [n for unit in units if not fixed.isdisjoint(unit) for n in unit]
+        work.clear_of(held, find_road(description, place, work.actors, 0.0), place.road_m)
         road = find_road(description, place, work.actors, 0.0)
         work.lead_across(road)
         work.clear_strip(road, place.road_m)
@@ -324,6 +326,24 @@ class _Zones:
             step = _beyond(taken, low, high)
             for number in unit:
                 self._move(number, shift + step * along)
+
+    def clear_of(self, held: Sequence[int], line: RoadLine, half_m: float) -> None:
+        """Traffic, and the road with it, passes beyond who is on foot and holds something."""
+        left = np.array([-math.sin(line.angle), math.cos(line.angle)])
+        side = math.copysign(1.0, left[1]) if abs(left[1]) > 0.1 else 1.0
+        drivers = [n for n in range(len(self.actors)) if self._zone(n) == "road"]
+        feet = [
+            side * line.across(self.actors[n].corners(time)[:, :2])
+            for n in held for time in self._times
+            if self._zone(n) == "pavement" and not self._crosses(self.actors[n], line)
+        ]  # fmt: skip
+        movable = {number for unit in self._units for number in unit}
+        far_m = max((float(one.max()) for one in feet), default=-math.inf)
+        near_m = min((float(one.min()) for one in feet), default=math.inf)
+        if not movable.issuperset(drivers) or far_m <= -half_m or near_m >= half_m:
+            return
+        for number in drivers:
+            self._move(number, side * (far_m + half_m + _CLEAR_M) * left)
 
     def keep_above_ground(self, numbers: Iterable[int]) -> None:
         """Flights that begin and end no lower than on the ground."""
