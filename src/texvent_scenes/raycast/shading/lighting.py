@@ -317,7 +317,7 @@ def _wetted(instant: Record, light: Colour, point: Colour, view: Colour, wet: Co
     else:
         light = scaled(light, 1.0 - _WET_DARK * instant.wetness)
     normal = unit((-slope_x, -slope_y, 1.0))
-    wetted = with_reflection(instant, light, (point, view, normal), _WATER_GLOSS, rough, 0)
+    wetted = with_reflection(instant, light, (point, view, normal), _WATER_GLOSS, rough, -1)
     return mix(light, wetted, share)
 
 

@@ -214,13 +214,13 @@ def with_reflection(
         rays: point, unit direction of the camera's ray, unit normal.
         base: share that is mirrored straight on; 0 = there is no layer.
         blur: as for `mirrored_light`.
-        own: as for `mirrored_light`; 0 is the ground.
+        own: as for `mirrored_light`; −1 = the ground.
     """
     point, view, normal = rays
     facing = max(-dot(view, normal), 0.0)  # a bent normal may turn away
     share = fresnel(base, facing)
     direction = along(view, normal, 2.0 * facing)
-    if own == 0:  # what the ground sends down meets it again
+    if own < 0:  # what the ground sends down meets it again
         direction = (direction[0], direction[1], abs(direction[2]))
     seen = mirrored_light(instant, point, direction, min(blur, _SOFTEST), own, 0.0)
     return mix(light, seen, share)
