@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from tests.scenes.every_row import for_every
 from tests.scenes.staged import DURATION_S, SIZE, thing
@@ -92,6 +92,7 @@ def test_a_vehicle_that_stands_or_leaves_touches_no_line_of_its_bay(noun, headin
     first=st.sampled_from(VEHICLES), second=st.sampled_from(VEHICLES),
     gap=st.floats(0.5, 9.0), along=st.floats(-8.0, 8.0), turn=st.sampled_from((0, 180, 90, 30)),
 )  # fmt: skip
+@example("van", "motorcycle", 1.0, 3.03125, 90)
 def test_where_no_row_of_bays_fits_all_vehicles_a_line_says_so(first, second, gap, along, turn):
     aside = gap + 0.5 * sum(
         NOUNS[one].build(colour=None, scale=1.0, seed=0).width for one in (first, second)

@@ -299,7 +299,8 @@ def list_astride(items: Sequence[SceneryItem], actors: Sequence[Actor], clip_s: 
     for stay in _list_stays(actors, clip_s):
         points = _list_points(stay.actor, stay.time_s)
         for cells, row in rows:
-            is_near = (np.abs(row.see(points)) < _half_extents(cells, row)).all(axis=1).any()
+            reach = _half_extents(cells, row) + _CLEAR_M  # the outer lines have a width
+            is_near = (np.abs(row.see(points)) < reach).all(axis=1).any()
             if is_near and not is_in_cell(cells, row, stay.actor, stay.time_s):
                 astride.append(stay.actor.name)
                 break
