@@ -24,6 +24,8 @@ _CLEAR_M, _DOOR_M = 0.06, 0.2
 """Least gap of a vehicle to the lines beside it, and usual room for its doors, m."""
 _WIDTHS = (0.9, 1.4)
 """Least and greatest width of a cell that is fitted to what stands in it, in usual ones."""
+_LINE_M = 0.06
+"""Half the width of a line of usual bays, m."""
 _AISLE_M, _OUT_M = 3.0, 0.2
 """Half the width of the way between bays; way from which on a body goes out of its bay, m."""
 _STEP_M, _POINTS = 0.05, 25
@@ -279,11 +281,12 @@ def list_bays(cells: Cells, row: Laid) -> Float64Array:
 def is_in_cell(cells: Cells, row: Laid, one: Actor, time_s: float) -> bool:
     """Whether a body stands between two lines of a row: its end may stand out on the open side."""
     along, left = row.see(one.corners(time_s)).T
-    half = _half_extents(cells, row)
-    numbers = (left + half[1]) / (row.scale * cells.width_m)
-    is_one = math.floor(float(numbers.min())) == math.floor(float(numbers.max()))
-    is_beside = float(np.abs(left).max()) < half[1] and float(along.min()) > -half[0]
-    return is_one and is_beside and float(row.see(one.middle(time_s)[None])[0, 0]) < half[0]
+    half, line_m = _half_extents(cells, row), _LINE_M * row.scale
+    ends = np.array([left.min() - line_m, left.max() + line_m]) + half[1]
+    low, high = np.floor(ends / (row.scale * cells.width_m))
+    is_one = low == high and 0 <= low < cells.number
+    is_beside = is_one and float(along.min()) > line_m - half[0]
+    return is_beside and float(row.see(one.middle(time_s)[None])[0, 0]) < half[0]
 
 
 def is_off(cells: Cells, row: Laid, spot: tuple[float, float], radius_m: float) -> bool:
@@ -299,7 +302,7 @@ def list_astride(items: Sequence[SceneryItem], actors: Sequence[Actor], clip_s: 
     for stay in _list_stays(actors, clip_s):
         points = _list_points(stay.actor, stay.time_s)
         for cells, row in rows:
-            reach = _half_extents(cells, row) + _CLEAR_M  # the outer lines have a width
+            reach = _half_extents(cells, row) + _LINE_M * row.scale
             is_near = (np.abs(row.see(points)) < reach).all(axis=1).any()
             if is_near and not is_in_cell(cells, row, stay.actor, stay.time_s):
                 astride.append(stay.actor.name)
