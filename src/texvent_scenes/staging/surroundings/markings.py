@@ -286,7 +286,7 @@ def is_in_cell(cells: Cells, row: Laid, one: Actor, time_s: float) -> bool:
     low, high = np.floor(ends / (row.scale * cells.width_m))
     is_one = low == high and 0 <= low < cells.number
     is_beside = is_one and float(along.min()) > line_m - half[0]
-    return is_beside and float(row.see(one.middle(time_s)[None])[0, 0]) < half[0]
+    return bool(is_beside and row.see(one.middle(time_s)[None])[0, 0] < half[0])
 
 
 def is_off(cells: Cells, row: Laid, spot: tuple[float, float], radius_m: float) -> bool:
