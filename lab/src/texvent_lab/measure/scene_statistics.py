@@ -198,7 +198,7 @@ def as_markdown(rows: Sequence[dict[str, Any]]) -> str:
 def main(arguments: list[str]) -> None:
     """Measure all rows, write them and print the table."""
     if len(arguments) != 1:
-        sys.exit("error: name the file to write, such as scene_statistics.json.gz; nothing was measured")
+        sys.exit("error: name the file to write, such as scene_statistics.json.gz")
     rows = [asdict(one) for one in (*recorded_rows(), *drawn_rows())]
     write_document(Path(arguments[0]), {"kind": "scenes", "rows": rows}, overwrite=True)
     print(as_markdown(rows))

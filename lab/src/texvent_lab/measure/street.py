@@ -165,7 +165,7 @@ def as_markdown(rows: list[dict[str, Any]]) -> str:
 def main(arguments: list[str]) -> None:
     """Measure all rows, write them and print the table."""
     if len(arguments) != 1:
-        sys.exit("error: name the file to write, such as street.json.gz; nothing was measured")
+        sys.exit("error: name the file to write, such as street.json.gz")
     path = find_pulled(STREET)
     if path is None:
         raise InputError(f"{STREET} is not here; texvent data pull {STREET} fetches it")
