@@ -103,14 +103,14 @@ def _left_out(
 def _refuse_ridden(description: SceneDescription, bodies: Mapping[int, Actor]) -> None:
     """Refuse a place of a rider that is not that of what is ridden."""
     for n, ridden in _list_rides(description):
-        stated = [description.objects[each].position_m for each in (n, ridden)]
-        if None in stated or ridden not in bodies:
+        here, there = (description.objects[each].position_m for each in (n, ridden))
+        if here is None or there is None or ridden not in bodies:
             continue
-        body, (here, there) = bodies[ridden].model, stated
-        if math.dist(here or (), there or ()) > _SEATED * max(body.length, body.width):
+        body = bodies[ridden].model
+        if math.dist(here, there) > _SEATED * max(body.length, body.width):
             raise ConfigError(
                 f"{_said_place(description, n)}, but it rides the {label_of(description, ridden)}, "
-                f"which is at [{there[0]:g}, {there[1]:g}]; leave one of them out"  # type: ignore[index]
+                f"which is at [{there[0]:g}, {there[1]:g}]; leave one of them out"
             )
 
 
