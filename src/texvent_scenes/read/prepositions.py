@@ -19,11 +19,16 @@ from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.draft.abilities import MEANS, Indices
 from texvent_scenes.read.draft.copies import part_ways
 from texvent_scenes.read.draft.scene_draft import SceneDraft
-from texvent_scenes.read.kept_ways import ALONG, OWN_BALL, claim_pavement, lead_bounces
 from texvent_scenes.read.parsing.groups import Group, Phrase, heads_of, nouns_of, words_of
 from texvent_scenes.read.parsing.lexicon import word_set
 from texvent_scenes.read.parsing.tokens import Token
-from texvent_scenes.read.relations import relate_one
+from texvent_scenes.read.relations import (
+    ALONG,
+    OWN_BALL,
+    claim_pavement,
+    lead_bounces,
+    relate_one,
+)
 from texvent_scenes.rendered_scene import Ground
 from texvent_scenes.spec.data import PLACING, SPACED
 

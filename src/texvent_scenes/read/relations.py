@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -16,6 +16,10 @@ from texvent_scenes.read.parsing.lexicon import word_set
 from texvent_scenes.read.parsing.tokens import Token
 from texvent_scenes.spec.data import ACTED, PLACING, SENT, SPACED, WAYS
 
+OWN_BALL = frozenset({"bounce", "dribble", "juggle"})
+"""Activities with a ball that stays by who does them: it meets no wall."""
+ALONG = ("along", "down", "up")
+"""Prepositions of ways that lead on."""
 _DROPPED = frozenset({"move", "fall", "throw", "roll", "bounce", "sink", "fly", "jump"})
 """Motions by which small things come into what is open above."""
 _ON_FOOT = frozenset({"climb", "walk", "run", "move"})
@@ -332,3 +336,22 @@ def _see_inside(kind: str, habitat: str, noun: str) -> str:
     if kind == "around" and habitat == "water" and noun in nouns_with("see-through"):
         return "in"
     return "into" if kind == "through" and noun in trait_values("rim") else kind
+
+
+def claim_pavement(
+    draft: SceneDraft, token: Token, heads: Sequence[Token], subjects: Indices
+) -> None:
+    """Leave it to the staged scene whether who is on a pavement keeps to it."""
+    on_foot = [one for one in subjects if draft.keeps_to_ground(one)]
+    for head in heads if token.text in ("on", *ALONG) else ():
+        if head.text in word_set("things", "pavements"):
+            draft.claim(head, "pavement", "", on_foot)
+
+
+def lead_bounces(draft: SceneDraft, token: Token, subjects: Indices) -> None:
+    """Have what bounces go on as it does so, as "across a table"; who bounces a ball stays."""
+    is_way = token.text in ("across", "over", *ALONG)
+    for one in subjects if is_way and draft.does(subjects) <= OWN_BALL else ():
+        draft.claim(token, "way", "", [one] if draft.does([one]) else [])
+        for motion in draft.things[one]["motions"] if token.text != "over" else ():
+            motion |= {} if draft.walks(one) else {"direction": motion.get("direction", "across")}
