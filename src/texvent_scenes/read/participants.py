@@ -93,7 +93,8 @@ def _find_meant(draft: SceneDraft, clause: Clause) -> list[int]:
 def _is_able(draft: SceneDraft, clause: Clause, index: int) -> bool:
     """Whether an object can do what not all can."""
     verbs = clause.verb.all("verb") if clause.verb is not None else ()
-    acts = [one.value for one in verbs if one.value.who not in ("plain", "source", "camera")]
+    anyone = () if draft.last.has_verb and draft.walks(index) else ("plain",)
+    acts = [one.value for one in verbs if one.value.who not in (*anyone, "source", "camera")]
     is_lamp, has_object = draft.things[index]["noun"] in LAMPS, bool(clause.objects)
     fitting = (one for one in acts if draft.fits(one, [index], [], has_object))
     return any(is_lamp or one.who != "lamp" for one in fitting)

@@ -240,8 +240,7 @@ def _relate_back(draft: SceneDraft, kind: str, phrase: Phrase, subjects: Indices
         claim_mutual(draft, [token, *find_mutual(phrase.groups)], kind, subjects)
         return
     if (before := draft.beside(token, -1)).has("place") and kind == "behind":
-        far = {one.value for one in before.all("place")} & word_set("things", "backdrops")
-        draft.mark(token, "shown" if far and draft.shows(before) else "lost")
+        draft.mark(token, "shown" if draft.shows(before) else "lost")
         return  # "with mountains behind it"
     held = draft.targets(subjects, ("wear", "hold"))  # "a man in a coat walks behind it"
     own = {*subjects, *held}
@@ -249,6 +248,8 @@ def _relate_back(draft: SceneDraft, kind: str, phrase: Phrase, subjects: Indices
     is_own = bool(set(nearest) & own) or (is_many and not draft.is_many(nearest))
     others: Indices = subjects
     about: Indices = draft.last.earlier if is_own else nearest
+    if is_own and not draft.beside(token, 1).has("pronouns"):  # "with a dog running alongside"
+        about = [one for one in draft.last.subjects if one not in own] or about
     people = [one for one in draft.find(PERSON_NOUNS) if one not in own]
     if draft.beside(token, 1).text in ("her", "him") and people and not {*people} & {*about}:
         about, nearest, is_own = people[-1:], [], True  # "lit by a lamp, a shelf behind her"

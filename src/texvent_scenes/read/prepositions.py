@@ -168,6 +168,7 @@ def go_to_place(
     does = {each["kind"] for one in moved for each in draft.things[one]["motions"][-1:]}
     at_home = _AT_HOME.get((token.text, "".join(names)), set())
     is_home = bool(does) and does <= at_home
+    is_home |= place is PLACES.get("".join(names)) and _is_viewed(draft, token)
     lands = token.text == "onto" and does and does <= _LANDING
     if is_entered or is_home or lands or (token.text == "from" and rises):
         draft.show(token)  # "steps onto the road": and goes over it
@@ -186,6 +187,11 @@ def go_to_place(
         said = token.text == "on" and place is PLACES["road"]  # else a fence stands beside it
         if draft.walks(index) or (said and draft.noun(index).motion != "drive"):
             draft.things[index].setdefault("placement", "lane")
+
+
+def _is_viewed(draft: SceneDraft, token: Token) -> bool:
+    """Whether a preposition says from where something is seen: "seen from a beach"."""
+    return token.text == "from" and draft.beside(token, -1).text in word_set("things", "viewed")
 
 
 def _keep_above(draft: SceneDraft, token: Token, place: PlaceModel, subjects: Indices) -> None:
@@ -347,7 +353,8 @@ def is_standpoint(draft: SceneDraft, phrase: Phrase, move: Mapping[str, Any] | N
     As in "seen from a bridge", "follows from a vehicle"; what a camera leaves is seen.
     """
     preposition, kind = phrase.preposition, (move or {}).get("kind")
-    leaves = kind in ("pan", "tilt", "zoom") or (move or {}).get("direction") in ("out", "up")
+    way = (move or {}).get("direction")
+    leaves = (kind in ("pan", "tilt", "zoom") and way != "in") or way in ("out", "up")
     before = draft.beside(preposition, -1)
     is_mount = before.text in word_set("things", "mounted")  # "mounted on a car"
     if before.text in ("is", "sits"):  # "the view is from a bridge"

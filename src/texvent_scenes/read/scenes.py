@@ -17,6 +17,7 @@ from texvent_scenes.read.camera import (
 )
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.draft.setting import names_place
+from texvent_scenes.read.modifiers import say_word
 from texvent_scenes.read.parsing.clauses import Clause, read_clauses
 from texvent_scenes.read.parsing.groups import Phrase, heads_of
 from texvent_scenes.read.parsing.lexicon import Sense, VerbSense, lexicon_of, word_set
@@ -44,6 +45,11 @@ def read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
         draft.parts["camera"]["view"] = "aerial"
     for clause in read_clauses(tokens):
         _apply(draft, clause)
+    going = [n for n, one in enumerate(draft.things) if one["motions"]]
+    for token in (one for one in tokens if one.text.endswith("slow motion")):
+        if going and not draft.shows(token):  # "slow motion of a dog running"
+            say_word(draft, token, going)
+            draft.mark(token, "shown")
     return finish(draft, prompt)
 
 
@@ -77,9 +83,6 @@ def _apply(draft: SceneDraft, clause: Clause) -> None:
     draft.last.was_camera = is_camera
     if _says_of_parts(draft, clause):
         pass
-    elif _is_of_clip(clause):
-        going = [n for n, one in enumerate(draft.things) if one["motions"]]
-        say_after(draft, clause.after, going, going, going)  # "the footage is in slow motion"
     elif is_camera or is_own:
         apply_to_camera(draft, clause, is_own=is_own)
     else:
@@ -94,14 +97,6 @@ def _is_built_in(draft: SceneDraft, head: Token, clause: Clause) -> bool:
     return any(one.has("noun") and not one.has("place") for one in words) and bool(
         head.nouns & inner
     )
-
-
-def _is_of_clip(clause: Clause) -> bool:
-    """Whether a clause says of the clip how fast it goes."""
-    words = [token for one in clause.subjects for token in one.words]
-    is_clip = bool(words) and clause.verb is None and all(one.has("style") for one in words)
-    return is_clip and any(isinstance(one, Token) and one.says("adverb", "pace")
-                           for one in clause.after)  # fmt: skip
 
 
 def _says_of_parts(draft: SceneDraft, clause: Clause) -> bool:

@@ -73,7 +73,7 @@ def name_group(
     draft.modifying |= {one.at for one in group.words} if head is not None else set()
     found: list[int] = []
     if head is not None and relation in word_set("things", "by_effects"):
-        head = _see_as_thing(head)
+        head = _see_as_thing(head, relation)
         group = replace(group, head=head)
     if head is not None and (formed := _list_formed(group, head)):
         return [index for one in formed for index in name_group(draft, one, relation, owners)]
@@ -297,11 +297,13 @@ def _list_formed(group: Group, head: Token) -> Sequence[Group]:
     return parts if is_shape else ()
 
 
-def _see_as_thing(head: Token) -> Token:
-    """A word as the thing that has the effect which it names: "around a fire"."""
-    effects = {one.value for one in head.all("effect")} if not head.has("noun") else set()
-    table = word_table("seen_as")
-    senses = [Sense("noun", NounSense(table[one])) for one in effects if one in table]
+def _see_as_thing(head: Token, relation: str) -> Token:
+    """A word as what has the effect or the room which it names: "around a fire", "past a cafe"."""
+    kinds = ("effect", "place") if relation in word_set("things", "outside") else ("effect",)
+    said = {one.value for kind in kinds for one in head.all(kind)} if not head.has("noun") else ()
+    table = {one: noun for noun, own in word_table("seen_as").items() for one in own}
+    senses = [Sense("noun", NounSense(table[one], is_kind=head.has("place")))
+              for one in said if one in table]  # fmt: skip
     return replace(head, senses=tuple(senses)) if senses else head
 
 

@@ -136,6 +136,9 @@ class _Parser(GroupReader):
     def _go_on(self, clause: Clause) -> Clause | None:
         """Beginning of the next clause after a comma; None: a list goes on."""
         token, after = self._token(), self._token(1)
+        if token.has("relatives") and clause.verb and after.has("verb") and clause.objects:
+            self._take()
+            return Clause(about="nearest")  # "drops a coin, which spins"
         is_passive = token.verbs("ed") and after.text == "by"  # "drives, followed by a van"
         if clause.has_subject and (is_passive or (clause.verb and self._goes_on(clause.verb))):
             return Clause(about="same")
