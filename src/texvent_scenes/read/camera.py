@@ -217,7 +217,8 @@ def _see_past(draft: SceneDraft, move: dict[str, Any] | None, phrase: Phrase) ->
     is_swept = turns and token.text in word_set("things", "swept")
     is_side = bool(found) and kind in word_set("things", "sides") and not is_swept
     if found and kind in ("through", "out of"):
-        is_side = move is None or not go_through(draft, move, token, found)
+        ahead = move or next(iter(draft.moves[-1:]), None)  # "forward motion through a tunnel"
+        is_side = ahead is None or not go_through(draft, ahead, token, found)
     is_over = look_over(draft, token, found)
     is_low = kind == "above" and _keeps_to_ground(draft, move)
     claim_way(draft, move, token, [] if is_over or is_low else found)

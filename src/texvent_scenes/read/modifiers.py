@@ -127,7 +127,9 @@ def _claim_adverb(
     meant, kinds = _MEANT.get(field, ("", ()))
     for motions in (draft.things[index]["motions"] for index in subjects):
         if motions and motions[-1]["kind"] in kinds:
-            motions[-1]["kind"] = meant
+            hurried = motions[-1]["kind"] == "run" and meant == "orbit"
+            pace = 2.0 * motions[-1].get("pace", 1.0)
+            motions[-1] |= {"kind": meant} | ({"pace": pace} if hurried else {})
         if field == "on_ground" and [one["kind"] for one in motions] == ["break"]:
             motions.insert(0, {"kind": "fall"})  # "a balloon bursts on the ground"
     if field == "in_air":
@@ -179,10 +181,16 @@ def _say_at_once(
 def _blow(draft: SceneDraft, index: int) -> bool:
     """Let things sway in the wind; whether the wind shows in their motion."""
     thing, noun = draft.things[index], draft.noun(index)
+    stays = noun.speed_m_s == 0.0
+    said, verb = [one["kind"] for one in thing["motions"][-1:]], draft.last.verb
+    if noun.is_working and stays and said == ["move"] and verb is not None:
+        thing["motions"].pop()  # "a flag moves in the wind"
+        draft.mark(verb, "shown")
+        draft.claims.pop(verb.at, None)
     if noun.is_working or {one["kind"] for one in thing["motions"]} & _IN_WIND:
         return True
     is_still = {one["kind"] for one in thing["motions"]} <= {"stand", "grow", "move"}
-    if (noun.habitat == "fixed" or noun.motion == "stand") and is_still:
+    if (noun.habitat == "fixed" or noun.motion == "stand" or stays) and is_still:
         thing["motions"] = [{"kind": "sway"}]
     return bool(thing["motions"]) and thing["motions"][-1]["kind"] == "sway"
 

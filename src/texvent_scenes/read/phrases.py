@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from texvent_scenes.models.activities import PERSON_NOUNS
-from texvent_scenes.models.tables import nouns_with, trait_value
+from texvent_scenes.models.tables import nouns_with, trait_values
 from texvent_scenes.read.draft.abilities import Indices
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.draft.setting import names_place, set_scene
@@ -29,9 +29,11 @@ from texvent_scenes.read.prepositions import (
     names_formation,
     names_sky,
 )
-from texvent_scenes.read.relations import GROUNDS, hand_over, relate_one
+from texvent_scenes.read.relations import GROUNDS, SMALL, hand_over, relate_one
 from texvent_scenes.read.things import name_group
 from texvent_scenes.spec.data import PLACING, SPACED, WAYS
+
+_SPOUTS = trait_values("spout").keys()
 
 
 def say_after(
@@ -49,6 +51,7 @@ def say_after(
             continue
         if isinstance(one, Phrase):
             who = _find_aimed(draft, one, last, subjects)
+            who = who or _find_doers(draft, one, subjects)
             who = who or _choose_placed(draft, one, last, subjects, told)
             who = [] if is_of_particles(draft, one) else who
             told = apply_phrase(draft, one, who, moved) or moved
@@ -109,7 +112,7 @@ def _choose_placed(
     if kind in ("on", "in") and before in SPACED:
         like = (one for one in subjects if draft.walks(one) == draft.walks(told[0]))
         return [*dict.fromkeys((*like, *told))]
-    is_passed = before in word_set("things", "passed") | {"into"}
+    is_passed = before in word_set("things", "passed") | {"into", "above"}
     goes_off = draft.names(subjects) <= PERSON_NOUNS and any(map(draft.goes, subjects))
     is_passed |= before == "from" and goes_off  # "walks away from a bag on a chair"
     return told if kind in PLACING and is_passed else subjects
@@ -132,6 +135,13 @@ def _find_aimed(draft: SceneDraft, phrase: Phrase, last: Token, subjects: Indice
     is_at |= bool(draft.targets(subjects, ["towards"]))
     is_next = bool(before.nouns & draft.names(nearest)) and verb is not NO_TOKEN
     return nearest if is_at and is_next and phrase.preposition.relation in ("on", "in") else []
+
+
+def _find_doers(draft: SceneDraft, phrase: Phrase, subjects: Indices) -> list[int]:
+    """Who do something that is not known with what they hold: "tightens a bolt with a wrench"."""
+    is_tool = {*nouns_of(phrase.groups)} <= SMALL and phrase.preposition.relation == "with"
+    doers = draft.last.subjects if is_tool and not subjects else []
+    return [one for one in doers if draft.things[one].get("is_lost")]
 
 
 def _fill_vessels(draft: SceneDraft, phrase: Phrase, subjects: Sequence[int]) -> bool:
@@ -168,7 +178,7 @@ def apply_phrase(draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: In
                                                   for one in phrase.groups)):  # fmt: skip
             draft.mark(token, "lost")  # "over a flame"
     elif (
-        (kind == "from" or (kind in ("through", "out of") and _is_spout(draft, targets)))
+        (kind == "from" or (kind in ("through", "out of") and draft.names(targets[:1]) <= _SPOUTS))
         and not subjects
         and draft.effects
         and draft.may_come_from(token)
@@ -211,11 +221,6 @@ def _look_at_sky(draft: SceneDraft, phrase: Phrase, subjects: Indices) -> None:
         draft.claim(phrase.preposition, "sky behind", "", subjects)
 
 
-def _is_spout(draft: SceneDraft, targets: Indices) -> bool:
-    """Whether something comes out of a thing below: a nozzle, a funnel."""
-    return trait_value("spout", draft.things[targets[0]]["noun"]) is not None
-
-
 def _relate_all(
     draft: SceneDraft, token: Token, kind: str, subjects: Indices, targets: Indices
 ) -> None:
@@ -231,6 +236,8 @@ def _relate_all(
     is_so |= not subjects and is_rained_under(draft, token, targets)
     draft.mark(token, "shown" if is_so else "lost")
     claim_relation(draft, token, kind, subjects, targets)
+    is_held = kind == "with" and {*targets} <= {*draft.targets(subjects, ["hold"])}
+    draft.claim(token, "hold", "", subjects if is_held else (), targets)
 
 
 def _relate_back(draft: SceneDraft, kind: str, phrase: Phrase, subjects: Indices) -> None:

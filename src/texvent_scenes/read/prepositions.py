@@ -168,8 +168,10 @@ def go_to_place(
     does = {each["kind"] for one in moved for each in draft.things[one]["motions"][-1:]}
     at_home = _AT_HOME.get((token.text, "".join(names)), set())
     is_home = bool(does) and does <= at_home
-    is_home |= place is PLACES.get("".join(names)) and _is_viewed(draft, token)
+    is_seen = draft.beside(token, -1).text in word_set("things", "viewed")  # "seen from a beach"
+    is_home |= token.text == "from" and is_seen and place is PLACES.get("".join(names))
     lands = token.text == "onto" and does and does <= _LANDING
+    lands = bool(lands) or (token.text in ("to", "onto") and "set down" in draft.acts(subjects))
     if is_entered or is_home or lands or (token.text == "from" and rises):
         draft.show(token)  # "steps onto the road": and goes over it
         draft.claim(token, "rise", "", moved if rises else ())
@@ -187,11 +189,6 @@ def go_to_place(
         said = token.text == "on" and place is PLACES["road"]  # else a fence stands beside it
         if draft.walks(index) or (said and draft.noun(index).motion != "drive"):
             draft.things[index].setdefault("placement", "lane")
-
-
-def _is_viewed(draft: SceneDraft, token: Token) -> bool:
-    """Whether a preposition says from where something is seen: "seen from a beach"."""
-    return token.text == "from" and draft.beside(token, -1).text in word_set("things", "viewed")
 
 
 def _keep_above(draft: SceneDraft, token: Token, place: PlaceModel, subjects: Indices) -> None:

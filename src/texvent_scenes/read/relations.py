@@ -28,7 +28,7 @@ _RUNNING = frozenset({"slide", "roll", "drive", "move"})
 """Motions into a body that has no opening: they meet."""
 _ROUND = frozenset({"on", "past", "at", "in", "through", "into"})
 """Relations to a ring that those who go have along it."""
-_SMALL = nouns_with("in hand or on something")
+SMALL = nouns_with("in hand or on something")
 _BED = nouns_with("seat") | word_set("things", "tables")
 _WORKED_AT = nouns_with("worked at")
 GROUNDS = nouns_with("way") | nouns_with("put down on")
@@ -51,7 +51,7 @@ def relate_one(draft: SceneDraft, kind: str, index: int, targets: Indices) -> bo
         return all([draft.relate(one, "on", sat_at[0]) for one in targets])
     tops = [one["to"] for one in thing["relations"] if one["kind"] == "on"
             and draft.things[one["to"][0]]["noun"] in word_set("things", "tables")]  # fmt: skip
-    small = [one for one in targets if draft.things[one]["noun"] in _SMALL
+    small = [one for one in targets if draft.things[one]["noun"] in SMALL
              and not draft.things[one]["relations"]]  # fmt: skip
     is_still = all(one["kind"] == "stand" for one in thing["motions"])
     for one in small if tops and kind in SPACED and is_still else ():
@@ -71,6 +71,8 @@ def _relate_with(draft: SceneDraft, index: int, targets: Indices) -> bool | None
         kinds = [_choose_relation(draft, "on", one, index) for one in targets]
         return all([draft.relate(one, kind, [index])
                     for one, kind in zip(targets, kinds, strict=True)])  # fmt: skip
+    if thing.get("is_lost") and thing["noun"] in PERSON_NOUNS and noun in SMALL:
+        return all([draft.relate(index, "hold", [one]) for one in targets])  # "with a wrench"
     if borne := _bear(draft, index, targets):
         return all([draft.relate(one, borne, [index]) for one in targets])
     if noun in nouns_with("towering"):
@@ -222,7 +224,7 @@ def _takes_no_body(draft: SceneDraft, index: int, noun: str, targets: Indices) -
 def _has_other_tool(thing: Mapping[str, Any], noun: str) -> bool:
     """Whether an act has another tool in the right hand than the one that is said."""
     props = [prop for one in thing["motions"] for prop in list_props(one["kind"])]
-    is_tool = noun in _SMALL | nouns_with("held as a tool") | nouns_with(
+    is_tool = noun in SMALL | nouns_with("held as a tool") | nouns_with(
         "used like a tool"
     ) and not can_be_worn(noun)
     has_tool = any(prop.anchor == "right hand" for prop in props)

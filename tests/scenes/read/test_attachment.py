@@ -44,6 +44,53 @@ RULES = {
         ("a train filmed from a field", "train; place name grass"),
         ("a horse seen from a road", "horse; place name road"),
     ],
+    "what is done with a thing that is held": [
+        ("a mechanic tightens a bolt with a wrench",
+         "mechanic, hold wrench; bolt; wrench; lost tightens"),
+        ("a boy films a dog with a phone", "child, hold cell phone; dog; cell phone; lost films"),
+        ("a man cuts a rope with a knife", "man, hold knife; rope; knife; lost cuts"),
+    ],
+    "what stays moves in the wind in its place": [
+        ("a flag moves in the wind", "flag"),
+        ("a scarf is moving in the wind", "scarf, sway"),
+        ("tall grass moves in the breeze", "grass tuft; as tall grass: grass tuft"),
+    ],
+    "a hall or a floor is that of the place before it": [
+        ("a statue in a museum hall", "statue; place name museum"),
+        ("a cat sleeps on a kitchen floor", "cat, sleep; place name kitchen"),
+        ("a dog runs across an office floor", "dog, run across; place name office"),
+    ],
+    "what is above a thing is not on what bears that": [
+        ("a bird flies over a man on a bench", "bird, fly, above man; man, on bench; bench"),
+        ("a drone hovers above a box on a table", "drone, hover, above box; box, on table; table"),
+        ("bees fly above a dog on a rug", "3 bee, fly, above dog; dog, on rug; rug"),
+    ],
+    "what is put down is put there": [
+        ("a man lowers a box to the floor", "man, set down box; box; place name indoor"),
+        ("a worker puts a crate onto a road", "worker, set down crate; crate; place name road"),
+        ("a robot arm lowers a cup to the floor",
+         "robot arm, set down cup; cup; place name indoor"),
+    ],
+    "effects after a comma begin a clause": [
+        ("a man works, sparks flying from a grinder",
+         "man, work; angle grinder; effect sparks angle grinder"),
+        ("a cook stands, smoke rising from a pan",
+         "chef, stand; frying pan; effect smoke frying pan"),
+        ("a car turns, dust rising behind it", "car, turn; effect dust; lost behind"),
+    ],
+    "a shot goes through what has a way through": [
+        ("forward motion through a tunnel", "tunnel; camera travel forward"),
+        ("dashcam view through a tunnel", "tunnel; camera travel forward drive"),
+        ("forward walk through a gate", "gate, stand open; camera travel forward walk"),
+    ],
+    "her before a phrase is a pronoun": [
+        ("a woman stands, cars pass behind her with headlights",
+         "woman, stand; 3 car, is_lit True, move, behind woman"),
+        ("a girl sits as a dog runs behind her at night",
+         "girl, sit; dog, run, behind girl; light kind night"),
+        ("a woman reads, a cat beside her in the rain",
+         "woman, read; cat, beside woman; place weather rain"),
+    ],
     "a shot is of what it names": [
         ("a shot of a vase breaking", "vase, break"),
         ("a clip of two dogs running", "2 dog, run"),

@@ -130,7 +130,8 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
     ):  # "grass" in a park
         draft.mark(head, name if head.text in word_set("things", "stand_ins") else "shown")
     for token in group.unknown:  # "a mountain road"
-        if {one.value for one in token.all("place")} & word_set("things", "backdrops"):
+        said = {one.value for one in token.all("place")}
+        if said & word_set("things", "backdrops") or (said and name == "indoor"):  # "a museum hall"
             set_place(draft, Group(token), token, "in")
 
 

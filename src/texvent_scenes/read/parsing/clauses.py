@@ -165,7 +165,7 @@ class _Parser(GroupReader):
     def _goes_on(self, verb: Token) -> bool:
         """Whether another verb of the same form follows in a list: "rolls, stops and falls"."""
         forms = {one.form for one in verb.all("verb")} & {"s", "ing"} or {"s"}
-        is_subject = self._token().has("noun") and self._token(1).verbs("base", "ing")
+        is_subject = self._token().has("noun", "effect") and self._token(1).verbs("base", "ing")
         return bool(self._token().verbs(*forms)) and not is_subject
 
     def _begin_with_verb(self, clause: Clause) -> Clause | None:

@@ -163,6 +163,8 @@ class GroupReader:
             is_back = token.has("pronouns") and after.text.endswith("ly")  # "circles her slowly"
             is_back &= not self._starts_group(ahead + 2)
             is_end = after.text.endswith("camera") or after.has("camera") or after.is_sign
+            is_led = after.text.startswith(_PREPOSITIONS) or after.has("relation")
+            is_end |= token.has("pronouns") and is_led  # "behind her in the rain"
             return not (is_end or is_back)
         is_view = token.has("shot") and not token.has("noun", "place")
         is_alone = is_view or token.text.startswith(_PREPOSITIONS)  # "aerial view", "at night"
@@ -175,6 +177,7 @@ class GroupReader:
         is_before = token.has(*MODIFIERS) or bool(token.verbs("ing", "ed"))
         is_part = after.text in word_table("parts")
         is_noun = is_part or after.has("noun", "place", *MODIFIERS)
+        is_noun &= not after.text.startswith(_PREPOSITIONS)  # "moving in the wind"
         if is_before and is_noun and not after.has("relation"):
             return True
         return token.has("scene") or (token.is_unknown and not token.text.endswith("ly"))
