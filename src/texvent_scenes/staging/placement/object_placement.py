@@ -65,11 +65,12 @@ from texvent_scenes.staging.tracks.choose_track import (
     orbit,
 )
 from texvent_scenes.staging.tracks.keys import Vector
+from texvent_scenes.staging.tracks.leaning import keep_up
 from texvent_scenes.staging.tracks.motion_plan import (
     plan_motion,
     raised,
 )
-from texvent_scenes.staging.tracks.phases import haste_of
+from texvent_scenes.staging.tracks.phases import haste_of, hovering_m
 from texvent_scenes.staging.tracks.track import Track, seated
 
 _MUCH_LARGER = 1.3
@@ -81,6 +82,8 @@ _PASSED = 1.2
 _PACE = 0.4
 """From what a person goes round to the person, in sizes."""
 _ATTEMPTS = 400
+_ON_GROUND_M = 0.01
+"""Height of its foot up to which a thing stands on the ground."""
 _HOVERS, _STANDING = ("hover", "float"), ("ground", "fixed")
 _LEVEL, _LEVEL_SHARE = ("beside", "at", "with", "left of", "right of"), 0.75
 """Motions, habitats and relations of what is in the air next to a thing, at so much of its
@@ -409,6 +412,10 @@ class ObjectPlacer:
             return levels["afloat"] * group.models[0].height - lowest_point(group.models[0])
         if name in levels and not (kind == "fly" and group.noun.motion == "fly"):
             return levels[name] * group.models[0].height
+        is_hung = name in nouns_with("hangs from a ceiling")
+        if kind in _HOVERS and habitat in _STANDING and air > 0.0 and not is_hung:
+            foot_m = max(-lowest_point(group.models[0]), 0.0)
+            return foot_m + hovering_m(group.models[0], group.plan.motion)
         level = levels.get(habitat, 0.0) or (air if kind == "fly" else 0.0)
         if level == 0.0:
             return 0.0
@@ -487,7 +494,17 @@ class ObjectPlacer:
         if group.carrier is not None:
             return self._ride_on(group, group.carrier, home)
         plan = group.plan if group.yaws is None else replace(group.plan, yaw=group.yaws[number])
-        return choose_track(plan, model, home, rng)
+        track = choose_track(plan, model, home, rng)
+        return keep_up(track, model) if self._stands(group, model, home[2]) else track
+
+    def _stands(self, group: ObjectGroup, model: Model, height_m: float) -> bool:
+        """Whether a copy is on the ground or on a thing, not in the air, in water or on a wall."""
+        is_hung = group.noun.name in nouns_with("hangs from a ceiling")
+        if group.scene_object.height_m is not None or is_hung:
+            return False
+        is_borne = group.row_m is not None and group.bearer is not None
+        foot_m = max(-lowest_point(model), 0.0)  # what is let into the ground stands on it too
+        return is_borne or -_ON_GROUND_M <= height_m <= foot_m + _ON_GROUND_M
 
     def _ride_on(self, group: ObjectGroup, below: ObjectGroup, home: Vector) -> Track:
         """On what carries it, which moves as a whole."""
