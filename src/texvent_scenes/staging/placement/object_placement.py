@@ -57,6 +57,7 @@ from texvent_scenes.staging.placement.relations import (
 )
 from texvent_scenes.staging.placement.sizes import Sizes
 from texvent_scenes.staging.placement.tags import list_pictures, note_tags
+from texvent_scenes.staging.placement.rows import stands
 from texvent_scenes.staging.placement.ways import has_fault, lead
 from texvent_scenes.staging.placement.zones import list_orphans
 from texvent_scenes.staging.surroundings.environment import lies_ashore
@@ -82,8 +83,6 @@ _PASSED = 1.2
 _PACE = 0.4
 """From what a person goes round to the person, in sizes."""
 _ATTEMPTS = 400
-_ON_GROUND_M = 0.01
-"""Height of its foot up to which a thing stands on the ground."""
 _HOVERS, _STANDING = ("hover", "float"), ("ground", "fixed")
 _LEVEL, _LEVEL_SHARE = ("beside", "at", "with", "left of", "right of"), 0.75
 """Motions, habitats and relations of what is in the air next to a thing, at so much of its
@@ -495,16 +494,7 @@ class ObjectPlacer:
             return self._ride_on(group, group.carrier, home)
         plan = group.plan if group.yaws is None else replace(group.plan, yaw=group.yaws[number])
         track = choose_track(plan, model, home, rng)
-        return keep_up(track, model) if self._stands(group, model, home[2]) else track
-
-    def _stands(self, group: ObjectGroup, model: Model, height_m: float) -> bool:
-        """Whether a copy is on the ground or on a thing, not in the air, in water or on a wall."""
-        is_hung = group.noun.name in nouns_with("hangs from a ceiling")
-        if group.scene_object.height_m is not None or is_hung:
-            return False
-        is_borne = group.row_m is not None and group.bearer is not None
-        foot_m = max(-lowest_point(model), 0.0)  # what is let into the ground stands on it too
-        return is_borne or -_ON_GROUND_M <= height_m <= foot_m + _ON_GROUND_M
+        return keep_up(track, model) if stands(group, model, home[2], self._level_m) else track
 
     def _ride_on(self, group: ObjectGroup, below: ObjectGroup, home: Vector) -> Track:
         """On what carries it, which moves as a whole."""
