@@ -55,9 +55,9 @@ from texvent_scenes.staging.placement.relations import (
     place_by_subject,
     place_on_targets,
 )
+from texvent_scenes.staging.placement.rows import stands
 from texvent_scenes.staging.placement.sizes import Sizes
 from texvent_scenes.staging.placement.tags import list_pictures, note_tags
-from texvent_scenes.staging.placement.rows import stands
 from texvent_scenes.staging.placement.ways import has_fault, lead
 from texvent_scenes.staging.placement.zones import list_orphans
 from texvent_scenes.staging.surroundings.environment import lies_ashore

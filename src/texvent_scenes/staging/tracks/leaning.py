@@ -1,4 +1,4 @@
-"""Leaning of what stands: a body that sways or tilts keeps its lowest point on what it stands on."""
+"""Leaning of what stands: it sways or tilts, and its lowest point stays on what it stands on."""
 
 from __future__ import annotations
 
