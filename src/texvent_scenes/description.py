@@ -121,7 +121,8 @@ def to_description(scene: Scene) -> SceneDescription:
         for number, subject in enumerate(objects)
         for one in subject.relations
     )
-    return SceneDescription(**{**vars(scene), "objects": objects}, relations=relations)
+    values = {one.name: getattr(scene, one.name) for one in fields(scene)}
+    return SceneDescription(**{**values, "objects": objects}, relations=relations)
 
 
 def said(motion: Motion) -> Motion:

@@ -37,6 +37,7 @@ from texvent.sensor import SENSORS, SensorSize
 from texvent.transfer import Transfer, encode_srgb, linear_levels
 from texvent_scenes.description import report_of
 from texvent_scenes.scene_input import list_nouns, nouns_of, understand
+from texvent_scenes.spec.data import naming_file
 
 if TYPE_CHECKING:
     from texvent.camera import PosedCamera
@@ -322,7 +323,8 @@ class ProceduralGenerator:
             TexventWarning: some of its words are not shown as they say, or objects out of view.
         """
         del progress
-        scene, report, files = self._stage(prompt)
+        with naming_file(prompt):
+            scene, report, files = self._stage(prompt)
         for fault in report.warnings("prompt words " if isinstance(prompt, str) else "scene: "):
             warn(fault)
         metadata = {
@@ -358,9 +360,10 @@ class ProceduralGenerator:
         Raises:
             InputError: as `generate`.
         """
-        if is_staged:
-            return self._stage(prompt)[1]
-        return self._accepted(report_of(understand(prompt, nouns_of(prompt, self._nouns))))
+        with naming_file(prompt):
+            if is_staged:
+                return self._stage(prompt)[1]
+            return self._accepted(report_of(understand(prompt, nouns_of(prompt, self._nouns))))
 
     def _stage(self, prompt: Subject) -> tuple[ComposedScene, PromptReport, list[dict[str, str]]]:
         # Imported here: all models are only needed to make a scene.

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from texvent.errors import MOST_WORDS, ConfigError, InputError, few, shown
 from texvent.generation.subjects import Subject
 from texvent.prompt_report import PromptReport
-from texvent_scenes.spec.data import checked_scene, scene_to_data
+from texvent_scenes.spec.data import checked_scene, naming_file, scene_to_data
 from texvent_scenes.spec.limits import Vocabulary
 from texvent_scenes.spec.scene import Light, Place, Scene
 
@@ -227,8 +227,9 @@ def check_words(scene: Scene, assets: str | Path | None = None) -> Scene:
         ConfigError: a word is not shown, or a field has no effect.
         InputError: a model does not exist.
     """
-    nouns = nouns_of(scene, list_nouns(assets))
-    return _refuse_idle(checked_scene(scene, list_words(nouns)), nouns)
+    with naming_file(scene):
+        nouns = nouns_of(scene, list_nouns(assets))
+        return _refuse_idle(checked_scene(scene, list_words(nouns)), nouns)
 
 
 def _refuse_idle(scene: Scene, nouns: Mapping[str, Noun]) -> Scene:

@@ -6,7 +6,13 @@ from typing import TYPE_CHECKING, Any
 
 from texvent_scenes.named_files import check_files, files_of
 from texvent_scenes.scene_input import check_words, list_nouns, read
-from texvent_scenes.spec.data import get_field, scene_from_data, scene_to_data, with_fields
+from texvent_scenes.spec.data import (
+    checked_scene,
+    get_field,
+    scene_from_data,
+    scene_to_data,
+    with_fields,
+)
 from texvent_scenes.spec.files import is_scene_file, load_scene, save_scene
 from texvent_scenes.spec.scene import Scene
 
@@ -16,6 +22,7 @@ if TYPE_CHECKING:
 __all__ = [
     "check_files",
     "check_words",
+    "checked_scene",
     "files_of",
     "get_field",
     "is_scene",

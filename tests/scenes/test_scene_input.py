@@ -98,7 +98,7 @@ def test_a_batch_takes_scene_files(tmp_path, capsys, monkeypatch):
         ('[[objects]]\nnoun = "car"\ncuont = 2', "scene.toml: objects[0] has no field 'cuont'"),
         ('[[objects]]\nnoun = "cra"', "scene.toml: objects[0].noun is 'cra'; did you mean 'crab'?"),
         ('[[objects]]\nnoun = "dog"\npicture = {kind = "text", value = "A"}',
-         "objects[0].picture is given, but a dog shows none"),
+         "scene.toml: objects[0].picture is given, but a dog shows none"),
     ],
 )  # fmt: skip
 def test_wrong_files_are_one_line(content, message, tmp_path, capsys, monkeypatch):

@@ -82,6 +82,10 @@ class ScenePackage(Protocol):
         """A scene from plain values, checked."""
         ...
 
+    def checked_scene(self, scene: Any) -> Any:
+        """A scene that a program made, checked as one from a file."""
+        ...
+
     def get_field(self, scene: Any, path: str) -> Any:
         """The value of a field by its path, such as `objects[0].colour`."""
         ...

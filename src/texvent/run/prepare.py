@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, cast
 
 from texvent._registry import DEFAULT_GENERATOR, GENERATORS, INTERPOLATORS, SIMULATORS
-from texvent.errors import ConfigError, InputError, warn
+from texvent.errors import InputError, warn
 from texvent.frames import FrameStream
 from texvent.generation.subjects import SceneValue, Subject, check_takes, scenes
 from texvent.pipeline import Simulation, text_to_events, text_to_video, video_to_events
@@ -106,11 +106,7 @@ def open_subject(prompt: Subject, assets: Path | None = None) -> Subject:
     """
     if not isinstance(prompt, str) or not scenes().is_scene_file(prompt):
         return prompt
-    scene = scenes().load_scene(prompt)
-    try:
-        return cast(Subject, scenes().check_words(scene, assets))
-    except ConfigError as error:
-        raise ConfigError(f"{prompt}: {error}") from None
+    return cast(Subject, scenes().check_words(scenes().load_scene(prompt), assets))
 
 
 def report_prompt(
@@ -260,5 +256,4 @@ def _checked(prompt: Any) -> Subject:
             f"the prompt is a {type(prompt).__name__}; give a text, such as 'a red car drives "
             "left', or a texvent_scenes.Scene"
         )
-    data = scenes().scene_to_data(prompt)
-    return cast(Subject, scenes().scene_from_data(data))
+    return cast(Subject, scenes().checked_scene(prompt))

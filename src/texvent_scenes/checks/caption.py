@@ -32,8 +32,10 @@ from texvent_scenes.models.nouns import AFLOAT, VARIANTS
 from texvent_scenes.models.shapes import bounds, moved
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.rendered_scene import Ground, Texture
+from texvent_scenes.spec.data import HANDLED
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.surroundings.lighting import DARK
+from texvent_scenes.staging.surroundings.threads import let_go_s
 from texvent_scenes.words import list_plurals
 
 _LEAST_SHARE, _MOST_SCENERY = 0.004, 4
@@ -42,8 +44,12 @@ _STAYS, _STIRS, _TURNS, _HALF = 0.05, 0.01, math.radians(4.0), 0.6
 """Way of a body that stays, in its sizes and m; way of a part that moves, in those; turn that is
 told; share of a body, of which less is seen than of one that is hidden by half."""
 _SUPPORTED_M, _GROUND_M, _APART = 0.06, 0.12, 0.15
-"""Gap to the support of a body, and height up to which it is on the ground, m; gap to what carries
-it from which on it is in the air, in its heights."""
+"""Gap to the support of a body, and height up to which it is on the ground, m; gap to what has let
+it go from which on it is in the air, in its heights."""
+_HAD = {"wear": "worn", "hold": "held", **dict.fromkeys(HANDLED, "held")}
+"""Relation to a thing → the word for having it; of others, it is carried."""
+_BESIDE_M = 0.08
+"""Gap between a thing and what has it from which on it is told, m."""
 _AFLOAT = 0.15
 """Height of its lowest point, in its heights, up to which what waves lift is on the water."""
 _CAMERA_M, _ZOOM, _STEEP = 0.03, 1.04, 0.85
@@ -209,22 +215,14 @@ def _tell_way(staged: StagedClip, one: Actor) -> str:
 def _tell_place_of(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
     """Support of it at the middle of the clip, or its height above the ground."""
     at = len(staged.times) // 2
-    if one.track.anchor is not None:
-        carriers = [other for other in staged.scene.actors
-                    if other.track is one.track.anchor.carrier]  # fmt: skip
-        if carriers and not _is_pushed(one, carriers[0], staged.times[at]):
-            noun = _plain(carriers[0].noun.name)
-            gap_m = _gap_between(one, carriers[0], staged.times[at])
-            is_apart = gap_m > _APART * one.model.height
-            return (
-                f"in the air, {_round(gap_m)} m from the {noun}"
-                if is_apart
-                else f"carried by the {noun}"
-            )
+    if carried := _tell_carrier(staged, one, staged.times[at]):
+        return carried
     low = body.middle[at] - 0.5 * body.size[at]
+    tied = [each for each in staged.scene.actors if each.track.anchor is not None]
+    carries = {each.object_index for each in tied if each.track.anchor.carrier is one.track}
     for index, copies in enumerate(staged.boxes):
         for other in copies:
-            if index != one.object_index and _bears(other, body, at):
+            if index not in carries and index != one.object_index and _bears(other, body, at):
                 return f"on the {_plain(staged.description.objects[index].noun)}"
     if inside := _find_holder(staged, one, body, at):
         return inside
@@ -237,8 +235,31 @@ def _tell_place_of(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
     ground = "water" if is_wet else "floor" if place.is_room else "ground"
     is_afloat = one.noun.habitat == "water" or one.noun.name in AFLOAT
     if low[2] > (_AFLOAT * one.model.height if is_wet and is_afloat else _GROUND_M):
-        return f"{_round(low[2])} m above the {ground}"
+        until_s = let_go_s(staged.description.objects[one.object_index], staged.duration_s)
+        is_hung = until_s is not None and staged.times[at] < until_s
+        return f"{'hangs on a thread ' * is_hung}{_round(low[2])} m above the {ground}"
     return f"{'in' if is_wet and low[2] < -_GROUND_M else 'on'} the {ground}"
+
+
+def _tell_carrier(staged: StagedClip, one: Actor, time_s: float) -> str:
+    """What has it at an instant, by its relation: in a hand, on a body; "" = nothing does."""
+    anchor = one.track.anchor
+    carriers = [] if anchor is None else [
+        other for other in staged.scene.actors if other.track is anchor.carrier
+    ]  # fmt: skip
+    if not carriers or _is_pushed(one, carriers[0], time_s):
+        return ""
+    noun, gap_m = _plain(carriers[0].noun.name), _gap_between(one, carriers[0], time_s)
+    is_apart = gap_m > _APART * one.model.height
+    if not one.track.grab_s <= time_s < one.track.release_s:
+        return f"in the air, {_round(gap_m)} m from the {noun}" if is_apart else f"at the {noun}"
+    kinds = (
+        each.kind
+        for each in staged.description.relations
+        if each.subject == carriers[0].object_index and one.object_index in each.targets
+    )
+    way = next((_HAD[kind] for kind in kinds if kind in _HAD), "carried")
+    return f"{way} by the {noun}" + f", {_round(gap_m)} m from it" * (gap_m > _BESIDE_M)
 
 
 def _is_pushed(one: Actor, carrier: Actor, time_s: float) -> bool:

@@ -6,11 +6,13 @@ import dataclasses
 import math
 import re
 from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import replace
 from graphlib import CycleError, TopologicalSorter
 from typing import Any
 
 from texvent._registry import suggest
-from texvent.errors import MAX_WORD, ConfigError, few, shown
+from texvent.errors import MAX_WORD, ConfigError, InputError, few, shown
 from texvent_scenes.spec.limits import Vocabulary
 from texvent_scenes.spec.scene import (
     MAX_BODIES,
@@ -88,9 +90,28 @@ def scene_from_data(data: Any, words: Vocabulary | None = None) -> Scene:
     return scene
 
 
-def checked_scene(scene: Scene, words: Vocabulary) -> Scene:
+def checked_scene(scene: Scene, words: Vocabulary | None = None) -> Scene:
     """A scene that a program made, checked as one from a file; errors as `scene_from_data`."""
-    return scene_from_data(scene_to_data(scene), words)
+    return of_file(scene_from_data(scene_to_data(scene), words), scene.file_name)
+
+
+def of_file(scene: Scene, name: str) -> Scene:
+    """The same scene, whose errors begin with the name of a file; a changed one has none."""
+    scene = replace(scene)
+    object.__setattr__(scene, "file_name", name)
+    return scene
+
+
+@contextmanager
+def naming_file(subject: object) -> Iterator[None]:
+    """Errors of a scene that was read from a file begin with the file's name."""
+    try:
+        yield
+    except InputError as error:
+        name = getattr(subject, "file_name", "")
+        if not name:
+            raise
+        raise type(error)(f"{name}: {error}") from None
 
 
 def _faults(scene: Scene) -> Iterator[str]:

@@ -15,7 +15,7 @@ from texvent.options.values import option_help
 from texvent.runtime.files.file_names import usable_path
 from texvent.runtime.files.yaml_text import keys_once
 from texvent_scenes.colours import PALETTES
-from texvent_scenes.spec.data import scene_from_data, scene_to_data
+from texvent_scenes.spec.data import of_file, scene_from_data, scene_to_data
 from texvent_scenes.spec.limits import Vocabulary
 from texvent_scenes.spec.scene import Scene, SceneObject
 from texvent_scenes.spec.tables import field_types, inner_type, required_fields
@@ -93,7 +93,7 @@ def load_scene(path: str | Path) -> Scene:
         raise FileFormatError(f"scene file {path} {error}") from error
     except ConfigError as error:
         raise ConfigError(f"{path}: {error}") from None
-    return _with_files_of(path.parent.resolve(), scene)
+    return of_file(_with_files_of(path.parent.resolve(), scene), str(path))
 
 
 def parse_scene(text: str, ending: str) -> Scene:

@@ -343,6 +343,8 @@ class Scene:
     absent: tuple[Annotated[str, Word("noun")], ...] = ()
     """Nouns that no scenery may show; of people or traffic, one stands for all."""
 
+    file_name = ""  # without a type, so no field: that of the file it was read from, for errors
+
     def __add__(self, part: Part) -> Self:
         """The scene with one more object, effect or lamp, or with another camera, light or place.
 

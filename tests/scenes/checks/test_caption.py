@@ -1,8 +1,10 @@
 """Captions: lines on a clip that are measured beside what its scene states."""
 
+import itertools
 import re
 
 import pytest
+from tests.scenes.every_row import for_every
 from tests.scenes.staged import SIZE
 
 from texvent_scenes.checks.caption import caption
@@ -100,6 +102,32 @@ def test_what_bears_a_body_is_told(bearer):
     _, (line, other), _ = lines(cup, {"noun": bearer, "motions": [{"kind": "stand"}]})
     assert f"; on the {bearer}" in line
     assert "; on the ground" in other
+
+
+HELD = ("knife", "cup", "umbrella", "paper plane", "rope", "book", "sword", "balloon", "flag")
+HAD = [
+    *itertools.product(("man", "hand", "robot arm"), HELD, ("hold",)),
+    *itertools.product(("robot arm",), ("cup", "box", "bottle"), ("lift",)),
+    *itertools.product(("man", "child"), ("hat", "backpack", "scarf", "helmet"), ("wear",)),
+]
+
+
+@for_every(HAD)
+def test_what_is_held_or_worn_is_told_so_and_not_in_the_air(row):
+    who, thing, kind = row
+    holder = {"noun": who, "relations": [{"kind": kind, "to": [thing]}]}
+    _, (own, line), _ = lines(holder, {"noun": thing})
+    assert f"; {'worn' if kind == 'wear' else 'held'} by the {who}" in line
+    assert "in the air" not in line
+    assert f"on the {thing}" not in own
+
+
+@for_every(itertools.product(("ball", "crate", "vase"), (0.5, 1.6)))
+def test_what_hangs_on_a_thread_until_it_falls_is_told_so(row):
+    noun, start_s = row
+    _, (line,), _ = lines({"noun": noun, "height_m": 2.0,
+                           "motions": [{"kind": "fall", "start_s": start_s}]})  # fmt: skip
+    assert ("hangs on a thread" in line) is (start_s > 0.5 * CLIP_S)
 
 
 def test_heights_and_grounds_are_told():

@@ -170,7 +170,7 @@ def test_a_machine_keeps_its_stated_position_and_things_come_to_it():
     hand = placed["arm"].anchor("hands", 2.0)[:, 3]
     assert np.linalg.norm(placed["cup"].middle(2.0) - hand) < 0.2
     borne = SceneObject("robot arm", id="arm", relations=(*lift, *on), position_m=(1.1, 1.9))
-    with pytest.raises(ConfigError, match=r"position_m is .*what it does is not possible"):
+    with pytest.raises(ConfigError, match=r"position_m is .*, but .* needs it .* away; leave"):
         place_by_id(borne, *things)
 
 

@@ -154,3 +154,33 @@ def test_what_spins_has_its_heading_at_time_0_and_its_sense(row):
     yaws = [place(one)[0].track.at(t).yaw for t in (0.0, 1.0, 1.1)]
     assert math.cos(yaws[0] - math.radians(heading)) == pytest.approx(1.0)
     assert (yaws[2] - yaws[1]) * (-1.0 if way == "clockwise" else 1.0) > 0.1
+
+
+LEANING = [Motion("sway", rate_hz=3.0), Motion("tilt"), Motion("tilt", "away", pace=1.5),
+           Motion("sway", start_s=0.5), Motion("hover"), Motion("float")]  # fmt: skip
+STANDING = sorted(name for name, one in NOUNS.items() if one.habitat in ("ground", "fixed")
+                  and not nouns_with("hangs from a ceiling") & {name})  # fmt: skip
+
+
+@for_every(itertools.product(STANDING[::4], LEANING))
+def test_what_sways_or_tilts_does_not_cut_what_it_stands_on(row):
+    noun, motion = row
+    bodies = [place(SceneObject(noun, motions=(one,)))[0] for one in (Motion("stand"), motion)]
+    own = [[each.to_body for each in bodies[1].place(at).parts] for at in (0.1, 0.8)]
+    if len(own[0]) == len(own[1]) and np.allclose(*own):  # its own parts stay
+        foot_m = bodies[0].lowest_m(0.0)
+        lows = [bodies[1].lowest_m(at) - foot_m for at in np.linspace(0.0, 2.0, 11)]
+        assert min(lows) > -0.01
+        assert max(lows) < 0.01 or motion.kind in ("hover", "float")
+
+
+@for_every(itertools.product(("vase", "sign", "bottle", "checkerboard"), ("table", "box"),
+                             ("sway", "tilt")))  # fmt: skip
+def test_what_sways_on_a_thing_keeps_its_foot_there(row):
+    noun, below, kind = row
+    on = (Relation("on", (below,)),)
+    objects = [SceneObject(noun, motions=(Motion(kind),), relations=on), SceneObject(below)]
+    one, bearer = place(*objects)[:2]
+    lows = [one.lowest_m(at) for at in np.linspace(0.0, 2.0, 25)]
+    assert np.ptp(lows) < 0.01
+    assert lows[0] > 0.5 * bearer.model.height

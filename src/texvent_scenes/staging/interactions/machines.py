@@ -89,7 +89,7 @@ def perform_grip(
             acting = perform(is_fixed=True)
         except OutOfReachError as reach:
             raise ConfigError(
-                _tell_reach(description, cast, (who, things[0]), stated, reach)
+                _tell_reach(description, cast, (who, things[0]), stated, reach, act.kind)
             ) from None
     cast.update(acting)
 
@@ -110,7 +110,7 @@ def _list_moves(
 
 def _tell_reach(
     description: SceneDescription, cast: Mapping[int, Actor], pair: tuple[int, int],
-    stated: Sequence[int], reach: OutOfReachError,
+    stated: Sequence[int], reach: OutOfReachError, kind: str,
 ) -> str:  # fmt: skip
     """Why a machine does not get to a thing, and what would do."""
     machine, thing = (cast[n] for n in pair)
@@ -119,16 +119,18 @@ def _tell_reach(
     here = np.array(machine.track.at(0.0).position[:2])
     there = np.array(thing.middle(0.0)[:2])
     first = description.objects[cast[stated[0]].object_index].position_m or (0.0, 0.0)
-    what = f"{own} is [{first[0]:g}, {first[1]:g}], from where what it does is not possible: "
+    what = f"{own} is [{first[0]:g}, {first[1]:g}], but "
     if not math.isfinite(reach.near_m):
-        return f"{what}the hand of the {name} does not get as high as the {other} is"
-    what += (f"the {other} is {float(np.linalg.norm(there - here)):.2f} m from the {name}, whose "
-             f"hand has it {reach.near_m:.2f} to {reach.far_m:.2f} m away; ")  # fmt: skip
+        return (f"{what}the hand of the {name} does not get as high as the {other} is; leave "
+                "position_m out, or what it is on")  # fmt: skip
+    what += (f"the {other} is then {float(np.linalg.norm(there - here)):.2f} m from the {name}, "
+             f"whose act ({kind}) needs it {reach.near_m:.2f} to {reach.far_m:.2f} m away; "
+             )  # fmt: skip
     if not others:
-        return f"{what}leave it out"
+        return f"{what}leave position_m out"
     way = np.array([math.cos(reach.way_rad), math.sin(reach.way_rad)])
     x, y = np.round(there - 0.5 * (reach.near_m + reach.far_m) * way, 3) + 0.0
-    return (f"{what}it can be [{x:g}, {y:g}]; else leave it out, or what is stated of the others: "
+    return (f"{what}give [{x:g}, {y:g}], or leave it out, or what is stated of the others: "
             f"{' and '.join(others)}")  # fmt: skip
 
 

@@ -51,6 +51,7 @@ def refuse_moved(
     acts = [one for one in description.relations if one.kind in ACTS]
     partners = {n: other for one in acts for n, other in (
         (one.targets[0], one.subject), (one.subject, one.targets[0]))}  # fmt: skip
+    kinds = {n: one.kind for one in acts for n in (one.targets[0], one.subject)}
     lifted = {one.targets[0] for one in acts if one.kind in HANDLED and one.kind == "lift"}
     riders = {one.subject for one in acts if one.kind == "ride"}
     for n, one in after.items():
@@ -61,27 +62,24 @@ def refuse_moved(
         first = before[n].track.at(0.0)
         off = np.subtract(home.position, first.position)
         if said.position_m is not None and float(np.linalg.norm(off[:2])) > _PLACED_M:
-            left = _left_out(description, partners.get(n), home.position[:2])
-            raise ConfigError(
-                f"{_said_place(description, n)}, from where what it does is not possible; {left}"
-            )
+            needed = _tell_needed(description, kinds.get(n), partners.get(n), home.position[:2])
+            raise ConfigError(f"{_said_place(description, n)}, but {needed}")
         if said.position_m is not None and n in lifted and abs(off[2]) > _AT_HAND_M:
             way = "higher" if off[2] > 0.0 else "lower"
             raise ConfigError(
-                f"{_said_place(description, n)}, from where what it does is not possible: what "
-                f"lifts it has it {abs(off[2]):.2f} m {way} at first; leave it out, or what it "
-                "is on"
+                f"{_said_place(description, n)}, but its act (lift) has it {abs(off[2]):.2f} m "
+                f"{way} at first; leave position_m out, or what it is on"
             )
         if said.height_m is not None and n in partners and abs(off[2]) > _PLACED_M:
             raise ConfigError(
-                f"objects[{n}].height_m is {said.height_m:g}, but what it does has it "
-                f"{abs(off[2]):.2f} m {'higher' if off[2] > 0.0 else 'lower'}; leave it out"
+                f"objects[{n}].height_m is {said.height_m:g}, but its act ({kinds[n]}) has it "
+                f"{abs(off[2]):.2f} m {'higher' if off[2] > 0.0 else 'lower'}; leave height_m out"
             )
         turn = math.degrees(math.remainder(home.yaw - first.yaw, math.tau))
         if said.heading_deg is not None and n in partners and abs(turn) > _TURNED_DEG:
             raise ConfigError(
-                f"objects[{n}].heading_deg is {said.heading_deg:g}, but what it does turns it to "
-                f"{math.degrees(home.yaw) % 360.0:.4g}; leave it out"
+                f"objects[{n}].heading_deg is {said.heading_deg:g}, but its act ({kinds[n]}) turns "
+                f"it to {math.degrees(home.yaw) % 360.0:.4g}; give that, or leave heading_deg out"
             )
 
 
@@ -90,14 +88,16 @@ def _said_place(description: SceneDescription, n: int) -> str:
     return f"objects[{n}].position_m is [{x:g}, {y:g}]"
 
 
-def _left_out(
-    description: SceneDescription, partner: int | None, place: Sequence[float]
+def _tell_needed(
+    description: SceneDescription, kind: str | None, partner: int | None, place: Sequence[float]
 ) -> str:  # fmt: skip
-    """The remedy of a position that an act does not allow."""
-    if partner is None or description.objects[partner].position_m is None:
-        return "leave it out, or what it is on"
+    """The position that an act needs, and what to do."""
     x, y = (round(float(value), 3) + 0.0 for value in place)
-    return f"it can be [{x:g}, {y:g}]; else leave it out, or objects[{partner}].position_m"
+    act = "an act of another" if kind is None else f"its act ({kind})"
+    needed = f"{act} needs it at [{x:g}, {y:g}]"
+    if partner is None or description.objects[partner].position_m is None:
+        return f"{needed}; leave position_m out, or what it is on"
+    return f"{needed}; give that, or leave out one of both, it or objects[{partner}].position_m"
 
 
 def _refuse_ridden(description: SceneDescription, bodies: Mapping[int, Actor]) -> None:

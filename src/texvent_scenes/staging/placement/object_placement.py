@@ -55,6 +55,7 @@ from texvent_scenes.staging.placement.relations import (
     place_by_subject,
     place_on_targets,
 )
+from texvent_scenes.staging.placement.rows import stands
 from texvent_scenes.staging.placement.sizes import Sizes
 from texvent_scenes.staging.placement.tags import list_pictures, note_tags
 from texvent_scenes.staging.placement.ways import has_fault, lead
@@ -65,11 +66,12 @@ from texvent_scenes.staging.tracks.choose_track import (
     orbit,
 )
 from texvent_scenes.staging.tracks.keys import Vector
+from texvent_scenes.staging.tracks.leaning import keep_up
 from texvent_scenes.staging.tracks.motion_plan import (
     plan_motion,
     raised,
 )
-from texvent_scenes.staging.tracks.phases import haste_of
+from texvent_scenes.staging.tracks.phases import haste_of, hovering_m
 from texvent_scenes.staging.tracks.track import Track, seated
 
 _MUCH_LARGER = 1.3
@@ -409,6 +411,10 @@ class ObjectPlacer:
             return levels["afloat"] * group.models[0].height - lowest_point(group.models[0])
         if name in levels and not (kind == "fly" and group.noun.motion == "fly"):
             return levels[name] * group.models[0].height
+        is_hung = name in nouns_with("hangs from a ceiling")
+        if kind in _HOVERS and habitat in _STANDING and air > 0.0 and not is_hung:
+            foot_m = max(-lowest_point(group.models[0]), 0.0)
+            return foot_m + hovering_m(group.models[0], group.plan.motion)
         level = levels.get(habitat, 0.0) or (air if kind == "fly" else 0.0)
         if level == 0.0:
             return 0.0
@@ -487,7 +493,8 @@ class ObjectPlacer:
         if group.carrier is not None:
             return self._ride_on(group, group.carrier, home)
         plan = group.plan if group.yaws is None else replace(group.plan, yaw=group.yaws[number])
-        return choose_track(plan, model, home, rng)
+        track = choose_track(plan, model, home, rng)
+        return keep_up(track, model) if stands(group, model, home[2], self._level_m) else track
 
     def _ride_on(self, group: ObjectGroup, below: ObjectGroup, home: Vector) -> Track:
         """On what carries it, which moves as a whole."""

@@ -1,9 +1,9 @@
-"""Rows of what rests on one thing: on a table, a bench, a belt, in a container."""
+"""Rows of what rests on one thing: on a table, a bench, a belt, in a container; what stands."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -12,12 +12,15 @@ from texvent_scenes.models.anchors import Support
 from texvent_scenes.models.protocol import Model, Pose
 from texvent_scenes.models.shapes import point
 from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.staging.actors import lowest_point
 from texvent_scenes.staging.placement.along_surface import carried_way
 from texvent_scenes.staging.placement.apart import Spacing
 from texvent_scenes.staging.placement.object_groups import ObjectGroup
 
 _PERSON_M = 0.5
 """Room for one of several people on something."""
+_ON_GROUND_M = 0.01
+"""Height of its foot up to which a thing stands on the ground."""
 _ENDS = 0.87
 """From one end to the other of what is sat on at its ends, of its length."""
 
@@ -26,6 +29,26 @@ def _slope_of(body: Model) -> float:
     """Rise of the last part of a body at rest, along its length."""
     turn = body.parts(Pose(0.0, 0.0, 0.0, "stand"))[-1].to_body
     return float(turn[2, 0] / math.hypot(turn[0, 0], turn[1, 0]))
+
+
+def stands(
+    group: ObjectGroup, model: Model, height_m: float, levels: Mapping[str, float]
+) -> bool:  # fmt: skip
+    """Whether a copy is on the ground or on a thing, not in the air, in water or on a wall.
+
+    Args:
+        group: the object.
+        model: the copy.
+        height_m: height of its origin, m.
+        levels: heights of what lives in the air and in the water.
+    """
+    is_hung = group.noun.name in nouns_with("hangs from a ceiling")
+    is_wet = "afloat" in levels and group.noun.habitat == "water"
+    if group.scene_object.height_m is not None or is_hung or is_wet:
+        return False
+    is_borne = group.row_m is not None and group.bearer is not None
+    foot_m = max(-lowest_point(model), 0.0)  # what is let into the ground stands on it too
+    return is_borne or -_ON_GROUND_M <= height_m <= foot_m + _ON_GROUND_M
 
 
 def line_up(

@@ -13,6 +13,7 @@ from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.materials import Material
 from texvent_scenes.models.shapes import bounds, moved, point, rod
 from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.spec.scene import SceneObject
 from texvent_scenes.staging.actors import Actor, PlacedModel
 from texvent_scenes.staging.tracks.phases import schedule
 
@@ -47,11 +48,17 @@ def _list_threads(
 ) -> Iterator[tuple[PlacedModel, float]]:
     """The threads of what waits in the air, and when each lets go, s."""
     for one in actors:
-        said = description.objects[one.object_index]
-        if waits_to_fall(said):
-            falls = (each.start_s for each in schedule(said.motions, duration_s)
-                     if each.motion.kind == "fall")  # fmt: skip
-            yield _hang(one), next(falls, duration_s)
+        until_s = let_go_s(description.objects[one.object_index], duration_s)
+        if until_s is not None:
+            yield _hang(one), until_s
+
+
+def let_go_s(said: SceneObject, duration_s: float) -> float | None:
+    """Instant at which the thread of what waits to fall lets it go, s; None: it hangs on none."""
+    if not waits_to_fall(said):
+        return None
+    phases = schedule(said.motions, duration_s)
+    return next((one.start_s for one in phases if one.motion.kind == "fall"), duration_s)
 
 
 def _list_cords(

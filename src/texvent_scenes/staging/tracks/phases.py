@@ -73,6 +73,8 @@ _GROWTH = {"grow": (-0.6, 0.4), "shrink": (0.0, -0.4)}
 """Growth: change of the size at first, and per second, in sizes; it goes on for 2 s."""
 _MOST_DRIFTING_M = 2.5
 """Size from which on what hovers drifts no further."""
+_CLEAR, _LEAST_CLEAR_M = 3.0, 0.2
+"""Height of what hovers, in its ways down; least height, m."""
 
 
 @dataclass(frozen=True)
@@ -220,6 +222,13 @@ def oscillations(motion: Motion, model: Model, phase: float) -> tuple[Term, ...]
         )
         for one in _WAVES.get(motion.kind, ())
     )
+
+
+def hovering_m(model: Model, motion: Motion) -> float:
+    """Height at which what hovers over the ground stays clear of it, m."""
+    drift = {one.channel: one.amplitude for one in oscillations(motion, model, 0.0)}
+    lean_m = 0.5 * max(model.length, model.width) * drift.get("roll", 0.0)
+    return max(_CLEAR * (drift.get("z", 0.0) + lean_m), _LEAST_CLEAR_M)
 
 
 def between(terms: tuple[Term, ...], begin_s: float, end_s: float) -> tuple[Term, ...]:

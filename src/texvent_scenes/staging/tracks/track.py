@@ -133,6 +133,15 @@ class Term(NamedTuple):
         return grown + self.amplitude * math.sin(angle)
 
 
+class Lift(NamedTuple):
+    """Height by which a body rises as it leans, so that its lowest point stays as high."""
+
+    channel: str
+    """"roll" or "pitch"."""
+    angles: tuple[float, ...]
+    heights_m: tuple[float, ...]
+
+
 def add_up(terms: Iterable[Term], time_s: float) -> dict[str, float]:
     """Channel → sum of its terms at that instant."""
     found: dict[str, float] = {}
@@ -235,6 +244,8 @@ class Track:
     """Instant, s → [3, 4] where what is gripped has taken the places of the hands."""
     contact_s: float | None = None
     """Instant of contact of a single act, s."""
+    lifts: tuple[Lift, ...] = ()
+    """Heights by which leaning raises it, so that it stays on what it stands on."""
 
     @property
     def duration_s(self) -> float:
@@ -319,6 +330,10 @@ class Track:
         added = add_up(self.terms, time_s)
         x, y, z = (
             value + added.pop(axis, 0.0) for axis, value in zip("xyz", state.position, strict=True)
+        )
+        z += sum(
+            float(np.interp(added.get(one.channel, 0.0), one.angles, one.heights_m))
+            for one in self.lifts
         )
         others = {name: getattr(state, name) + value for name, value in added.items()}
         return state.with_fields(position=(x, y, z), **others)

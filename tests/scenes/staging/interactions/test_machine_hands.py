@@ -108,7 +108,7 @@ def test_a_stated_machine_reaches_a_stated_thing_or_says_from_where_it_does(row)
         found = lift(noun, machine_m, thing_m, bearer, heading_deg)
     except ConfigError as error:
         text = str(error)
-        said = re.search(r"has it (.+) to (.+) m away; it can be \[(.+), (.+)\]; else", text)
+        said = re.search(r"needs it (.+) to (.+) m away; give \[(.+), (.+)\], or", text)
         near_m, far_m, x, y = map(float, said.groups())
         assert text.startswith("objects[0].position_m is [")
         assert not near_m + 0.05 < off_m < far_m - 0.05 or noun == "forklift"
