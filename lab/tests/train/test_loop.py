@@ -1,7 +1,6 @@
 """The training loop: scores, files, refusals; `test_resuming.py` has what follows a kill."""
 
 import json
-import math
 from pathlib import Path
 
 import pytest
@@ -11,10 +10,8 @@ from texvent.cli.app import main
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
 
-from texvent.errors import TexventError  # noqa: E402
 from texvent_lab.train.classification.config import ClassificationConfig  # noqa: E402
 from texvent_lab.train.classification.task import ClassificationTask  # noqa: E402
-from texvent_lab.train.loop import descend  # noqa: E402
 from texvent_lab.train.run import train_from_file  # noqa: E402
 from texvent_lab.train.schedule import Hardware, Schedule  # noqa: E402
 
@@ -58,24 +55,6 @@ def test_workers_change_nothing_and_another_seed_does(specification, tmp_path):
     assert not torch.equal(one["conv0.weight"], three["conv0.weight"])
 
 
-def test_the_rate_falls_and_training_stops_where_nothing_improves(
-    specification, tmp_path, monkeypatch
-):
-    specification.write_text(
-        'data = {folder = "bars"}\n[schedule]\nepochs = 30\npatience = 1\nreduction = 0.5\n'
-        "stop_after = 5\nlearning_rate = 1e-9\n"
-    )
-    scores = iter([math.nan, 0.5, 0.9, 0.9, math.nan, *[0.8] * 25])
-    monkeypatch.setattr(
-        ClassificationTask, "validate", lambda *_, **__: ({"accuracy": next(scores)}, {})
-    )
-    state = train_from_file(ClassificationConfig, specification, tmp_path / "run", CPU)
-    assert (state.best_epoch, state.epochs) == (3, 8)
-    rate = state.optimizer["param_groups"][0]["lr"]
-    # Reduced after two epochs without a better score, and again after two more.
-    assert rate == pytest.approx(0.25e-9)
-
-
 @pytest.mark.parametrize("keep", ["best", "last"])
 def test_the_best_network_is_kept_or_the_last(specification, tmp_path, monkeypatch, capsys, keep):
     specification.write_text(
@@ -103,13 +82,6 @@ def test_the_best_network_is_kept_or_the_last(specification, tmp_path, monkeypat
     assert f"accuracy {score}" in said
 
 
-def test_the_loss_of_an_epoch_is_the_mean_of_its_batches():
-    network, schedule = torch.nn.Linear(1, 1), Schedule()
-    losses = (0 * network.weight.sum() + value for value in (1.0, 2.0, 6.0))
-    optimizer = schedule.make_optimizer(network)
-    assert descend(losses, optimizer, network, where="", schedule=schedule) == 3.0
-
-
 def test_options_of_the_schedule_reach_the_optimiser(specification, tmp_path):
     optimizer = Schedule(
         optimizer="adamw", learning_rate=0.1, weight_decay=0.2, amsgrad=True
@@ -121,15 +93,6 @@ def test_options_of_the_schedule_reach_the_optimiser(specification, tmp_path):
     state = train_from_file(ClassificationConfig, specification, tmp_path / "run", CPU)
     moments = [one["exp_avg_sq"].sum() for one in state.optimizer["state"].values()]
     assert 0 < sum(moments) < 1e-12
-
-
-def test_a_loss_that_is_no_number_ends_it_with_the_place(specification, tmp_path, monkeypatch):
-    cross_entropy = ClassificationTask.loss
-    monkeypatch.setattr(
-        ClassificationTask, "loss", lambda *words: (cross_entropy(*words) - 1e9).log()
-    )
-    with pytest.raises(TexventError, match=r"the loss is nan in epoch 1, batch 1; give a smaller"):
-        train_from_file(ClassificationConfig, specification, tmp_path / "run", CPU)
 
 
 def test_another_training_is_not_continued(specification, tmp_path, capsys):
