@@ -288,13 +288,15 @@ def modules():
 def forget(before):
     """Let modules go that were imported since, and hold a part of this one, or of such a module."""
     new = {name: one for name, one in sys.modules.items() if name not in before}
-    gone = {*modules(), __name__}
-    for _ in new:
-        for name, one in new.items():
-            parts = (getattr(part, "__module__", getattr(part, "__name__", None))
-                     for part in [*vars(one).values()])  # fmt: skip
-            if name.startswith("texvent") and not gone.isdisjoint({*filter(None, map(str, parts))}):
-                gone.add(name)
+    parts = {
+        name: {str(getattr(part, "__module__", getattr(part, "__name__", None)))
+               for part in [*vars(one).values()]}
+        for name, one in new.items() if name.startswith("texvent")
+    }  # fmt: skip
+    gone, known = {*modules(), __name__}, 0
+    while known < len(gone):
+        known = len(gone)
+        gone |= {name for name, held in parts.items() if not gone.isdisjoint(held)}
     for name in gone - {__name__}:
         one = sys.modules.pop(name, None)
         parent, _, inner = name.rpartition(".")

@@ -86,20 +86,6 @@ def test_a_part_of_a_clip_has_its_windows():
 
 
 @pytest.mark.detect
-def test_mirrored_histograms_and_boxes_agree():
-    from texvent_lab.bench.detection.clips import dense
-    from texvent_lab.bench.detection.task import targets
-
-    histogram = np.zeros((20, 48, 64), np.uint8)
-    histogram[3, 10:20, 5:15] = 2
-    clip = BoxedClip.of("a", [histogram], [boxes((1, 5, 10, 10, 10))])
-    image = dense([clip], "cpu")[0, 0].flip(-1).numpy()
-    ((_, x, y, w, h),) = targets(clip, 0, flip=True)
-    assert image[3, int(y - h / 2) : int(y + h / 2), int(x - w / 2) : int(x + w / 2)].sum() == 200
-    assert dense([clip, clip], "cpu").sum() == 400
-
-
-@pytest.mark.detect
 def test_a_detector_finds_what_it_was_trained_on():
     import torch
 
@@ -181,9 +167,7 @@ def test_eqs_computes_with_the_stored_weights_as_evlib_does(tmp_path: Path, binn
         assert np.abs(one).max() > 0.05
 
 
-@pytest.mark.torch
-def test_without_the_recorded_street_there_is_no_score_of_it(tmp_path: Path, monkeypatch):
-    pytest.importorskip("torch")
+def test_without_the_recorded_street_there_is_no_score_of_it(torch, tmp_path: Path, monkeypatch):
     from texvent_lab.bench.detection.run import score_street
 
     monkeypatch.setenv("TEXVENT_DATA", str(tmp_path))
