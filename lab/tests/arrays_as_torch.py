@@ -93,7 +93,8 @@ def _plain(function, **usual):
 for _name in ("mean", "sum", "all", "any", "argmax"):
     setattr(Tensor, _name, _along(_name))
 for _name, _function in {
-    "abs": np.abs, "isnan": np.isnan, "float": np.float32, "double": np.float64, "long": np.int64,
+    "abs": np.abs, "isnan": np.isnan, "isfinite": np.isfinite,
+    "float": np.float32, "double": np.float64, "long": np.int64,
     "clone": np.array, "cpu": np.asarray, "numel": np.size, "is_complex": np.iscomplexobj,
     "nan_to_num": lambda one, nan: np.nan_to_num(one, nan=nan), "movedim": np.moveaxis,
     "clamp": lambda one, min=None, max=None: np.clip(one, min, max), "contiguous": np.asarray,
@@ -132,7 +133,7 @@ class Module:
     def parameters(self):
         return list(self.state_dict(keep_vars=True).values())
 
-    def load_state_dict(self, state, assign=False):
+    def load_state_dict(self, state, strict=True, assign=False):
         own = self.state_dict()
         if {name: one.shape for name, one in state.items()} != {n: o.shape for n, o in own.items()}:
             raise RuntimeError("other tensors")
