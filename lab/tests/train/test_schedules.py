@@ -144,7 +144,12 @@ def test_rates_and_kept_networks_follow_the_scores(
     assert [row["epoch"] for row in told["epochs"]] == [*range(1, epochs + 1)]
     drawn = np.reshape([x for one in task.drawn for x in one], (epochs, SAMPLES))
     assert (np.sort(np.floor(drawn), axis=1) == np.arange(SAMPLES)).all()
-    assert np.unique(drawn).size == drawn.size
+    for epoch, row in enumerate(drawn):  # the chance of a sample in an epoch
+        chances = {n: np.random.default_rng((1, 1, epoch, n)).random() for n in range(SAMPLES)}
+        assert [x - math.floor(x) for x in row] == pytest.approx(
+            [chances[math.floor(x)] for x in row], abs=1e-5
+        )
+    assert len({tuple(np.floor(row)) for row in drawn}) > len(drawn) // 2
 
 
 KINDS = {

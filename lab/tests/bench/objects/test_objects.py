@@ -8,25 +8,16 @@ import numpy as np
 import pytest
 
 from texvent.errors import ConfigError, FileFormatError, InputError
-from texvent.events import EventStream
-from texvent.sensor import SensorSize
 from texvent_lab.bench.objects.recorded import (
     SIDE,
     Frames,
     in_cells,
-    last_polarity,
     read_table,
     read_turntables,
 )
 from texvent_lab.commands.bench.bench import run
 
 from .stand_in import POSES, write_frames, write_specifications, write_turntables
-
-
-def test_a_window_keeps_the_last_polarity_of_each_pixel():
-    x, y, t = [1, 2, 2, 1, 3], [0, 0, 0, 0, 0], [0, 10, 20, 99_999, 100_000]
-    events = EventStream(x, y, t, [0, 1, 0, 1, 1], SensorSize(5, 2))
-    assert last_polarity(events, 0).tolist() == [[0, 1, -1, 0, 0], [0, 0, 0, 0, 0]]
 
 
 def test_cells_count_on_and_off_pixels():
