@@ -1,6 +1,9 @@
 """What the tests of texvent set up and lend: profiles of hypothesis, stand-ins, fixtures."""
 
+import importlib
+import sys
 import tomllib
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -8,7 +11,10 @@ from tests.conftest import moving_texture, spawn
 
 from texvent import _registry
 
+from . import arrays_as_torch
+
 __all__ = ["moving_texture", "spawn"]
+HAS_TORCH = find_spec("torch") is not None
 
 
 @pytest.fixture
@@ -22,3 +28,16 @@ def plug_ins(monkeypatch):
         return plugged_in(group, is_own=True) if is_own else groups.get(group, {})
 
     monkeypatch.setattr(_registry, "_plugged_in", find)
+
+
+@pytest.fixture(scope="module")
+def torch():
+    """torch; where it is not installed, arrays that stand for it, to be imported by tests alone."""
+    if HAS_TORCH:
+        yield importlib.import_module("torch")
+        return
+    before = {*sys.modules}
+    found = arrays_as_torch.modules()
+    sys.modules |= found
+    yield found["torch"]
+    arrays_as_torch.forget(before)

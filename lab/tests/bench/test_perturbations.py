@@ -32,6 +32,8 @@ def test_jitter_goes_each_way_as_often(axis):
     steps, counts = np.unique((after - before)[inner], return_counts=True)
     assert steps.tolist() == [-1, 0, 1]
     assert counts == pytest.approx(inner.sum() / 3, rel=0.1)
+    for edge, way in ((0, 1), (SIDE - 1, -1)):
+        assert {*(after - before)[before == edge].tolist()} == {0, way}
 
 
 @pytest.mark.parametrize("name", [one for one in PERTURBATIONS if one.endswith(" ms")])

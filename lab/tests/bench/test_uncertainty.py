@@ -63,6 +63,11 @@ def test_a_mean_is_that_of_all_defined_values_whatever_the_blocks(values, gaps, 
         return
     mean = Mean.of(values, is_in_sequence=is_in_sequence)
     assert mean.mean == pytest.approx(np.nanmean(values), abs=1e-9)
+    back = mean.reversed()
+    assert (back.windows, back.block, back.mean) == (mean.windows, mean.block, -mean.mean)
+    if mean.is_enough:
+        assert back.interval == (-mean.interval.high, -mean.interval.low)
+        assert not math.isnan(mean.interval.low)
 
 
 PAIRS = arrays.arrays(

@@ -1,22 +1,20 @@
-"""The training loop: scores, files, refusals; `test_resuming.py` has what follows a kill."""
+"""Trainings of networks: learning, files, workers, refusals; `test_schedules.py` has the loop."""
 
 import json
-import math
 from pathlib import Path
 
 import pytest
 
 from texvent.cli.app import main
+from texvent.errors import InputError
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
 
-from texvent.errors import TexventError  # noqa: E402
 from texvent_lab.train.classification.config import ClassificationConfig  # noqa: E402
-from texvent_lab.train.classification.task import ClassificationTask  # noqa: E402
-from texvent_lab.train.loop import descend  # noqa: E402
 from texvent_lab.train.run import train_from_file  # noqa: E402
 from texvent_lab.train.schedule import Hardware, Schedule  # noqa: E402
+from texvent_lab.train.task import Batches  # noqa: E402
 
 from .written_samples import write_bars_training  # noqa: E402
 
@@ -58,58 +56,6 @@ def test_workers_change_nothing_and_another_seed_does(specification, tmp_path):
     assert not torch.equal(one["conv0.weight"], three["conv0.weight"])
 
 
-def test_the_rate_falls_and_training_stops_where_nothing_improves(
-    specification, tmp_path, monkeypatch
-):
-    specification.write_text(
-        'data = {folder = "bars"}\n[schedule]\nepochs = 30\npatience = 1\nreduction = 0.5\n'
-        "stop_after = 5\nlearning_rate = 1e-9\n"
-    )
-    scores = iter([math.nan, 0.5, 0.9, 0.9, math.nan, *[0.8] * 25])
-    monkeypatch.setattr(
-        ClassificationTask, "validate", lambda *_, **__: ({"accuracy": next(scores)}, {})
-    )
-    state = train_from_file(ClassificationConfig, specification, tmp_path / "run", CPU)
-    assert (state.best_epoch, state.epochs) == (3, 8)
-    rate = state.optimizer["param_groups"][0]["lr"]
-    # Reduced after two epochs without a better score, and again after two more.
-    assert rate == pytest.approx(0.25e-9)
-
-
-@pytest.mark.parametrize("keep", ["best", "last"])
-def test_the_best_network_is_kept_or_the_last(specification, tmp_path, monkeypatch, capsys, keep):
-    specification.write_text(
-        f'data = {{folder = "bars"}}\n[schedule]\nepochs = 3\nkeep = "{keep}"\n'
-    )
-    scores = iter([0.5, 0.9, 0.6])
-    monkeypatch.setattr(
-        ClassificationTask, "validate", lambda *_, **__: ({"accuracy": next(scores)}, {})
-    )
-    state = train_from_file(ClassificationConfig, specification, tmp_path / "run", CPU)
-    assert state.best_epoch == 2
-    wanted, other = state.best, state.network
-    if keep == "last":
-        wanted, other = other, wanted
-    kept = weights(tmp_path / "run")
-    assert all(torch.equal(kept[name], wanted[name]) for name in kept)
-    assert not all(torch.equal(kept[name], other[name]) for name in kept)
-    told = json.loads((tmp_path / "run" / "history.json").read_text())
-    assert told["best_epoch"] == 2
-    words = ["classification", str(specification), "-o", str(tmp_path / "run"), "--device", "cpu"]
-    assert main(["train", *words, "-q"]) == 0  # it is complete: tells the same
-    number, score = (3, "0.6") if keep == "last" else (2, "0.9")
-    assert told["kept_epoch"] == number
-    assert f"{keep} epoch {number} of 3: " in (said := capsys.readouterr().out)
-    assert f"accuracy {score}" in said
-
-
-def test_the_loss_of_an_epoch_is_the_mean_of_its_batches():
-    network, schedule = torch.nn.Linear(1, 1), Schedule()
-    losses = (0 * network.weight.sum() + value for value in (1.0, 2.0, 6.0))
-    optimizer = schedule.make_optimizer(network)
-    assert descend(losses, optimizer, network, where="", schedule=schedule) == 3.0
-
-
 def test_options_of_the_schedule_reach_the_optimiser(specification, tmp_path):
     optimizer = Schedule(
         optimizer="adamw", learning_rate=0.1, weight_decay=0.2, amsgrad=True
@@ -123,15 +69,6 @@ def test_options_of_the_schedule_reach_the_optimiser(specification, tmp_path):
     assert 0 < sum(moments) < 1e-12
 
 
-def test_a_loss_that_is_no_number_ends_it_with_the_place(specification, tmp_path, monkeypatch):
-    cross_entropy = ClassificationTask.loss
-    monkeypatch.setattr(
-        ClassificationTask, "loss", lambda *words: (cross_entropy(*words) - 1e9).log()
-    )
-    with pytest.raises(TexventError, match=r"the loss is nan in epoch 1, batch 1; give a smaller"):
-        train_from_file(ClassificationConfig, specification, tmp_path / "run", CPU)
-
-
 def test_another_training_is_not_continued(specification, tmp_path, capsys):
     words = ["train", "classification", str(specification), "-o", str(tmp_path / "run"), "-q"]
     assert main(words) == 0
@@ -143,3 +80,49 @@ def test_another_training_is_not_continued(specification, tmp_path, capsys):
     torch.save({**torch.load(path, weights_only=True), "version": "0.0.9"}, path)
     assert main(words) == 2
     assert "was begun by texvent 0.0.9" in capsys.readouterr().err
+
+
+def change_shape(path: Path) -> None:
+    content = torch.load(path, weights_only=True)
+    content["state_dict"]["linear.weight"] = torch.zeros(7, 64)
+    torch.save(content, path)
+
+
+def make_infinite(path: Path) -> None:
+    content = torch.load(path, weights_only=True)
+    content["state_dict"]["linear.bias"][0] = float("inf")
+    torch.save(content, path)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (change_shape, "size mismatch for linear.weight"),
+        (make_infinite, "linear.bias holds values that are NaN or infinite"),
+        (lambda path: path.write_bytes(b"PK\x03\x04damaged"), "weights.pt"),
+        (Path.unlink, "there is no weights file"),
+    ],
+)
+def test_weights_that_do_not_fit_are_refused_in_one_line(tmp_path, capsys, change, message):
+    specification = write_bars_training(tmp_path, epochs=1)
+    words = ["classification", str(specification), "--device", "cpu", "-q"]
+    assert main(["train", *words, "-o", str(tmp_path / "run")]) == 0
+    weights = tmp_path / "run" / "weights.pt"
+    assert main(["evaluate", words[0], words[1], str(weights), *words[2:4]]) == 0
+    change(weights)
+    assert main(["evaluate", words[0], words[1], str(weights), *words[2:4]]) == 2
+    error = capsys.readouterr().err
+    assert message in error
+    assert len(error.strip().splitlines()) == 1
+
+
+def refuse(number, chance):
+    raise InputError(f"sample {number} is bad: give another")
+
+
+@pytest.mark.parametrize("workers", [0, 1])
+def test_an_error_is_the_same_from_this_process_and_from_a_worker(workers):
+    batches = Batches(make=refuse, count=1, batch_size=1, seed=0, workers=workers)
+    with pytest.raises(InputError) as caught:
+        next(batches.epoch(0))
+    assert str(caught.value) == "sample 0 is bad: give another"

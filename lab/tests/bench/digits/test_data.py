@@ -152,6 +152,9 @@ def test_polarity_is_checked_against_the_brightness_of_the_digit():
     assert polarity_agreement(sheet, recorded) > 0.97
     opposite = [EventStream(one.x, one.y, one.t, 1 - one.p, one.size) for one in recorded]
     assert polarity_agreement(sheet, opposite) < 0.03
+    one_sign = [EventStream(one.x, one.y, one.t, 0 * one.p + 1, one.size) for one in recorded]
+    share_on = np.mean(np.concatenate([one.p for one in recorded]))
+    assert polarity_agreement(sheet, one_sign) == pytest.approx(share_on, abs=0.1)
     late = EventStream([5], [5], [DURATION_US], [1], SensorSize(34, 34))
     assert math.isnan(polarity_agreement(sheet, [late] * 6))
 

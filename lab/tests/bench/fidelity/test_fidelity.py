@@ -15,7 +15,7 @@ from texvent.pipeline import video_to_events
 from texvent.settings.resolution import resolve
 from texvent.simulation.physical.threshold_map import read_threshold_map
 from texvent_lab.bench.fidelity.comparison import Comparison
-from texvent_lab.bench.fidelity.entries import Entry, choose_entries
+from texvent_lab.bench.fidelity.entries import ConfigEntry, Entry, choose_entries
 from texvent_lab.bench.fidelity.oracle_run import FidelityPlan, record_truths, run_fidelity
 from texvent_lab.bench.fidelity.results import read_report
 from texvent_lab.bench.fidelity.run import score_entry
@@ -107,6 +107,34 @@ def test_a_document_read_back_gives_the_report(report):
     assert fidelity_tables(restored) == fidelity_tables(synthetic_report())
 
 
+FILE = """interpolate = "rife"
+preset = "paper"
+rife_flow = "each"
+"""
+RIFE = Entry(simulator="texvent", preset="paper", interpolate="rife", rife_flow="each")
+ROWS = {
+    "simulator": {"simulator": "esim", "preset": None},
+    "preset": {"preset": "accurate"},
+    "interpolate": {"interpolate": "blend"},
+    "rife_flow": {"rife_flow": "once"},
+    "options": {"options": (("contrast_threshold", 0.4),)},
+}
+
+
+@pytest.mark.parametrize("name", ROWS)
+def test_every_field_of_a_row_reaches_its_run_and_beats_its_file(name, tmp_path):
+    (tmp_path / "one.toml").write_text(FILE)
+    of_file = ConfigEntry.read(tmp_path / "one.toml")
+    assert of_file.settings(3).as_tables() == RIFE.settings(3).as_tables()
+    for row in (RIFE, of_file):
+        if hasattr(row, name) and (row is RIFE or name in ("interpolate", "options")):
+            changed = dataclasses.replace(row, **ROWS[name])
+            assert changed.settings(3).as_tables() != row.settings(3).as_tables()
+        assert {row.settings(seed).run.seed for seed in (3, 4)} == {3, 4}
+        flow = row.or_flow(rife=False).settings(3).interpolate
+        assert (flow.interpolate, row.settings(3).interpolate.rife_flow) == ("flow", "each")
+
+
 def test_entries_are_chosen_by_name_and_preset():
     entries = choose_entries("physical:davis346,esim", "none")
     assert [entry.name for entry in entries] == ["physical davis346, none", "esim, none"]
@@ -194,6 +222,10 @@ def test_tables_say_how_far_an_entry_is_behind_the_best_that_gets_the_same_frame
     assert "| +0.002 [" in cells["steady"]
     assert cells["half"].endswith("|  |")
     assert cells["lost"].endswith("| undefined | undefined |")
+    ranked = six_textures(**TRACKS).ranked("mixed", "noisy")
+    order = [one.entry for one in ranked]
+    assert order == ["true frames", "half", "steady", "twin", "behind", "lost"]
+    assert [name for name in cells if name in TRACKS] == order
     document = six_textures(**TRACKS).document()
     behind = {score["entry"]: score["behind_best"] for score in document["scores"]}
     assert behind["steady"] is behind["half"] is behind["true frames"] is None

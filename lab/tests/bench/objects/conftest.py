@@ -24,6 +24,11 @@ class Networks:
         kinds = np.unique(labels)
         return kinds, np.stack([images[labels == kind].mean(axis=0) for kind in kinds])
 
+    @property
+    def of_windows(self):
+        """Images and labels of the networks that name classes of windows."""
+        return [(images, labels) for images, labels, _ in self.shown if images.ndim == 4]
+
     def predict(self, network, images):
         self.asked.append(images)
         kinds, means = network

@@ -8,25 +8,16 @@ import numpy as np
 import pytest
 
 from texvent.errors import ConfigError, FileFormatError, InputError
-from texvent.events import EventStream
-from texvent.sensor import SensorSize
 from texvent_lab.bench.objects.recorded import (
     SIDE,
     Frames,
     in_cells,
-    last_polarity,
     read_table,
     read_turntables,
 )
 from texvent_lab.commands.bench.bench import run
 
 from .stand_in import POSES, write_frames, write_specifications, write_turntables
-
-
-def test_a_window_keeps_the_last_polarity_of_each_pixel():
-    x, y, t = [1, 2, 2, 1, 3], [0, 0, 0, 0, 0], [0, 10, 20, 99_999, 100_000]
-    events = EventStream(x, y, t, [0, 1, 0, 1, 1], SensorSize(5, 2))
-    assert last_polarity(events, 0).tolist() == [[0, 1, -1, 0, 0], [0, 0, 0, 0, 0]]
 
 
 def test_cells_count_on_and_off_pixels():
@@ -113,8 +104,7 @@ def test_a_locator_finds_what_it_was_trained_on():
     assert average_precision(found, truth, classes=("short", "long"), iou=(0.75,))[ALL] > 0.5
 
 
-@pytest.mark.usefixtures("networks")
-def test_the_command_scores_every_arm_and_goes_on(tmp_path, capsys):
+def test_the_command_scores_every_arm_and_goes_on(networks, tmp_path, capsys):
     write_specifications(tmp_path / "configs")
     write_frames(tmp_path / "frames")
     write_turntables(tmp_path / "turntables")
@@ -128,6 +118,17 @@ def test_the_command_scores_every_arm_and_goes_on(tmp_path, capsys):
     assert [one["arm"] for one in document["turntable"]] == [*arms, "number of events alone"]
     assert document["table"][0]["difference"] is None
     assert len(document["table"][1]["difference"]) == 3
+    for path in (tmp_path / "work").glob("predicted-*"):
+        with np.load(path) as file:
+            found, numbers = file["found"], file["numbers"]
+            if found.dtype.names:  # boxes of windows, those that were not learned alone
+                assert {*found["t"].tolist()} <= {*numbers.tolist()}
+            else:
+                assert len(found) == len(numbers)
+    for images, labels in networks.of_windows if networks else ():
+        one, other = np.split(images, 2)  # as they are, and mirrored left to right
+        assert np.array_equal(one, other[..., ::-1])
+        assert np.array_equal(*np.split(labels, 2))
     times = {one: one.stat().st_mtime_ns for one in (tmp_path / "work").iterdir()}
     run([*words, "-o", str(tmp_path / "two.json")])
     assert times == {one: one.stat().st_mtime_ns for one in (tmp_path / "work").iterdir()}

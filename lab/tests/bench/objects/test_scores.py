@@ -1,6 +1,6 @@
 """Windows, halves and scores of objects, against plain definitions."""
 
-from dataclasses import replace
+from dataclasses import fields, replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -8,14 +8,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from texvent.dataset import read_specification
 from texvent.events import EventStream
+from texvent.frames import Frame
 from texvent.sensor import SensorSize
 from texvent.truth.boxes import BOX_RECORD
 from texvent_lab.bench.objects import clips
+from texvent_lab.bench.objects.arms import Arm
 from texvent_lab.bench.objects.clips import count_pixels, make_windows
 from texvent_lab.bench.objects.plan import Run
 from texvent_lab.bench.objects.recorded import SIDE, Frames
 from texvent_lab.bench.objects.results import ObjectsReport, WindowSet, objects_tables, score_all
+
+from .stand_in import write_specifications
 
 KINDS = ("mug", "fork", "key")
 SEEDS = st.integers(0, 2**32 - 1).map(np.random.default_rng)
@@ -26,7 +31,8 @@ def windows_of(rng, counts, *, has_boxes):
     """Windows of each kind, whose boxes hold events in some."""
     classes = np.repeat(np.arange(len(counts)), counts)
     side = SIDE if has_boxes else 16
-    images = (rng.random((len(classes), side, side)) < 0.01).astype(np.int8)
+    images = rng.choice(np.array([-1, 0, 1], np.int8), (len(classes), side, side),
+                        p=[0.006, 0.99, 0.004])  # fmt: skip
     boxes = np.full((len(classes), 4), np.nan, np.float32)
     if has_boxes:
         boxes[:] = np.stack([*rng.integers(0, 60, (2, len(classes))),
@@ -53,6 +59,9 @@ def test_accuracy_is_the_mean_over_recordings_of_the_share_of_windows_that_are_r
         assert np.array(of_kinds) == pytest.approx(np.transpose(shares))
         assert row.interval[0] <= row.interval[1]
     assert [rows[0].difference, rows[2].difference] == [None, None]
+    one_kind = [np.zeros_like(recorded.classes)]  # right in all windows of one recording of three
+    row = score_all(recorded, KINDS, SETS, {"texvent": one_kind})[0]
+    assert [*row.interval, *row.scores["accuracy"]] == pytest.approx([1 / 3] * 3)
     less = np.mean(rows[1].scores["accuracy"]) - np.mean(rows[0].scores["accuracy"])
     assert rows[1].difference[0] == pytest.approx(less)
     logs = np.log1p([np.count_nonzero(one) for one in recorded.images])
@@ -179,6 +188,52 @@ def test_windows_of_clips_follow_the_first_and_keep_the_last_polarity(rng, tmp_p
     assert (frames.boxes[:, 0].tolist(), events, asked) == ([0, 0, 0, 1, 1], 600, [0.1, None])
     count, pixels = count_pixels([*streams], lambda path, one: streams[path])
     assert (count(0.3), pixels) == (np.count_nonzero(expected), len(expected) * SIDE * SIDE)
+
+
+def test_a_clip_has_a_box_in_the_middle_of_each_window_after_the_first(tmp_path, monkeypatch):
+    class Film:
+        asked = ()
+
+        def __iter__(self):
+            return iter(
+                Frame(np.zeros((SIDE, SIDE), np.uint8), t) for t in range(0, 450_001, 50_000)
+            )
+
+        def instances_at(self, t_us, points):
+            self.asked += (t_us,)
+            return None, np.ones(len(points))
+
+    film, item = Film(), SimpleNamespace(key="a", subject="a", label="mug")
+    monkeypatch.setattr(clips, "make_video", lambda *_: film)
+    clips.render_clip(item, {"sensor": "128x128"}, tmp_path / "clip.npz")
+    assert film.asked == (150_000, 250_000, 350_000)
+    with np.load(tmp_path / "clip.npz") as found:
+        assert found["boxes"].tolist() == [[-5, -5, SIDE + 10, SIDE + 10]] * 3
+        assert found["t_us"].tolist() == [*range(0, 450_001, 50_000)]
+
+
+def other(value):
+    """Another value of a field of an arm."""
+    kinds = {"exact": "frames", "": "v2v", (): (0.2,), 0.0: 0.3, None: SimpleNamespace(digest="x")}
+    if isinstance(value, dict):
+        return {**value, "noise": "random"}
+    return kinds[value] if isinstance(value, str | tuple | float | None) else None
+
+
+@pytest.mark.parametrize("field", [one.name for one in fields(Arm)])
+def test_windows_of_an_arm_are_named_after_every_fact_of_it(field, tmp_path):
+    write_specifications(tmp_path / "configs")
+    specification = read_specification(tmp_path / "configs" / "table.toml")
+    arm = Arm(specification, {"preset": "paper"})
+    if field == "specification":
+        changed = replace(specification, options={**specification.options, "fps": 30})
+    else:
+        changed = other(getattr(arm, field))
+    recorded = {"table": windows_of(np.random.default_rng(0), (1,), has_boxes=True)}
+    arms = {"a": arm, "again": replace(arm), "b": replace(arm, **{field: changed})}
+    run = Run(SimpleNamespace(sets={"table": arms}, work=tmp_path), recorded)
+    first, again, second = (run.windows_path("table", name) for name in arms)
+    assert first == again != second
 
 
 @pytest.mark.parametrize(

@@ -6,15 +6,12 @@ import sys
 from pathlib import Path
 from types import SimpleNamespace
 
-import numpy as np
 import pytest
 
 from texvent.cli.app import main
 from texvent.errors import ConfigError, InputError
-from texvent.events import EventStream
 from texvent.metrics.compare import compare
 from texvent.metrics.event_frames import EventFrameLpips
-from texvent.sensor import SensorSize
 from texvent.simulation.texvent.simulator import TexventSimulator
 from texvent_lab.bench.fidelity import entries
 from texvent_lab.bench.fidelity.entries import read_ablations
@@ -29,7 +26,6 @@ from texvent_lab.bench.paper.published_tables import (
     join_measured,
 )
 from texvent_lab.bench.paper.run import (
-    measure_accuracy,
     measure_eqs,
     measure_event_frames,
     measure_images,
@@ -40,7 +36,6 @@ from texvent_lab.bench.real.recording import RecordingPart, open_scene
 from texvent_lab.bench.real.run import run_real
 from texvent_lab.commands.bench.paper import _read_ablations as ablation_rows
 
-from ...nt_imagenet.tiny_data import write_stream
 from ..reconstruction.synthetic_network import StandInReconstructor, moving_bar, write_recording
 from ..synthetic_report import synthetic_report
 
@@ -307,41 +302,6 @@ def test_tables_say_which_input_is_missing(monkeypatch, tmp_path):
         assert word in " ".join(found.needs)
 
 
-@pytest.mark.torch
-def test_accuracy_is_measured_for_the_columns_that_have_a_folder(tmp_path, monkeypatch):
-    torch = pytest.importorskip("torch")
-    from texvent_lab.networks.resnet34 import ResNet
-
-    narrow = dataclasses.replace(paper.CLASSIFIER, width=1)
-    monkeypatch.setattr(paper, "CLASSIFIER", narrow)
-    t = np.arange(40)
-    events = EventStream(t % 8, t % 6, t, t % 2, SensorSize(8, 6))
-    for name in ("n01", "n02"):
-        place = tmp_path / "streams" / "texvent" / name
-        place.mkdir(parents=True)
-        events.save(place / "a.npz", format="n-imagenet")
-        # The recorded files of N-ImageNet store no size; they are 640x480.
-        write_stream(tmp_path / "streams" / "Original" / name / "a.npz", 30, seed=0)
-    tensors = ResNet(2, 2, width=1).tensors
-    state = {name: torch.ones_like(one) for name, one in tensors.items()}
-    weights = tmp_path / "weights.tar"
-    torch.save({"state_dict": state}, weights)
-    config = PaperConfig(table=9, folder=tmp_path / "streams", weights=weights)
-    found = measure_accuracy(config, silent)
-    # Both classes have the same score, and the first is taken.
-    assert found.rows["Acc@1 ↑"] == {"Original": "0.5000", "Texvent": "0.5000"}
-    assert found.rows["Acc@5 ↑"]["Texvent"] == "1.0000"
-    assert "vid2e" in found.needs[0]
-    mine = dataclasses.replace(config, events=(f"Mine={tmp_path / 'streams' / 'texvent'}",))
-    assert measure_accuracy(mine, silent).rows["Acc@1 ↑"]["Mine"] == "0.5000"
-    (tmp_path / "streams" / "Original" / "n03").mkdir()
-    with pytest.raises(InputError, match="texvent lacks n03, which another column has"):
-        measure_accuracy(mine, silent)
-    (tmp_path / "empty").mkdir()
-    with pytest.raises(InputError, match="original, vid2e"):
-        measure_accuracy(dataclasses.replace(config, folder=tmp_path / "empty"), silent)
-
-
 def test_all_tables_become_one_document_and_one_page(tmp_path, monkeypatch, capsys):
     monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path))  # no weights
     monkeypatch.setattr(paper, "STAND_IN", "firenet")
@@ -388,3 +348,11 @@ def test_streams_are_classified_as_n_imagenet_does(tmp_path, monkeypatch):
         {first: "0.8500", last: "0.9000"},
     ]
     assert asked == [(tmp_path, tmp_path / "w.pt", "cpu", 30_000, "224x224", "resnet34")] * 2
+    mine = dataclasses.replace(config, events=(f"{last}={tmp_path / first.lower()}",))
+    assert measure_table(mine, silent).rows["Acc@1 ↑"] == dict.fromkeys((first, last), "0.7500")
+    (tmp_path / first.lower() / "shark").mkdir()
+    with pytest.raises(InputError, match=f"{last.lower()} lacks shark, which another column has"):
+        measure_table(config, silent)
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(InputError, match="original, vid2e"):
+        measure_table(dataclasses.replace(config, folder=tmp_path / "empty"), silent)

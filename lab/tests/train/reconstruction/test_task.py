@@ -9,7 +9,6 @@ import pytest
 from tests.metrics.lpips.lpips_files import narrow_weights
 
 from texvent.cli.app import main
-from texvent.metrics.image_measures import mean_squared_error
 from texvent.metrics.lpips import ALEX, FILE_NAME, write_lpips_weights
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent_lab.registries import RECONSTRUCTORS
@@ -18,10 +17,8 @@ from ..windowed_specification import TEXT, write_specification
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
-from texvent_lab.reconstruct.firenet import FIRENET  # noqa: E402
-from texvent_lab.reconstruct.reconstructor import Reconstructor, load_reconstructor  # noqa: E402
+from texvent_lab.reconstruct.reconstructor import load_reconstructor  # noqa: E402
 from texvent_lab.train.reconstruction.config import (  # noqa: E402
-    ReconstructionAugmentation,
     ReconstructionConfig,
 )
 from texvent_lab.train.reconstruction.task import ReconstructionTask, new_network  # noqa: E402
@@ -33,10 +30,6 @@ from texvent_lab.train.schedule import Hardware  # noqa: E402
 
 pytestmark = pytest.mark.torch
 CPU = Hardware(device="cpu")
-DEVICE = torch.device("cpu")
-UNCHANGED = ReconstructionAugmentation(
-    flip=False, noise=0.0, hot_pixels=0.0, hot_pixel_fraction=0.0, pause_begin=0.0
-)
 TRAINING = """\
 network = {name = "firenet"}
 loss = {lpips = 0.0, l1 = 1.0, ssim = 1.0}
@@ -82,39 +75,6 @@ def weights(folder: Path) -> dict[str, torch.Tensor]:
     return torch.load(folder / "weights.pt", weights_only=True)["state_dict"]
 
 
-def test_unchanged_examples_are_the_windows_themselves(folder):
-    config = config_of(folder, augmentation=UNCHANGED)
-    config = replace(config, data=replace(config.data, crop=None))
-    make = ReconstructionTask(config).batches(workers=0).make
-    example, clips = make(1, np.random.default_rng(5)), make.clips
-    windows = clips.draw(1, skip_drawn(4, 5), 4)
-    grids = [voxel_e2vid(events, normalise=True) for events in windows.events]
-    np.testing.assert_array_equal(example["voxels"], grids)
-    np.testing.assert_array_equal(example["images"][:, 0], windows.targets["frame"] / 255)
-    np.testing.assert_array_equal(example["flow"], windows.targets["flow"])
-    assert {str(one.dtype) for one in example.values()} == {"float32"}
-
-
-def skip_drawn(count: int, seed: int) -> np.random.Generator:
-    """Chance after the pauses were drawn."""
-    chance = np.random.default_rng(seed)
-    chance.random(count)
-    return chance
-
-
-def test_in_a_pause_nothing_happens_and_nothing_is_lost(folder):
-    always = replace(UNCHANGED, pause_begin=1.0, pause_stay=0.0)
-    make = ReconstructionTask(config_of(folder, augmentation=always)).batches(workers=0).make
-    example = make(0, np.random.default_rng(0))
-    # Every second window is a pause.
-    for pause in (1, 3):
-        assert not example["voxels"][pause].any()
-        assert not example["flow"][pause].any()
-        np.testing.assert_array_equal(example["images"][pause], example["images"][pause - 1])
-    assert example["voxels"][[0, 2]].any()
-    assert not np.array_equal(example["images"][0], example["images"][2])
-
-
 def test_mixed_precision_trains_weights_of_full_precision(folder, tmp_path):
     mixed = replace(CPU, precision="bfloat16")
     state = train_from_file(ReconstructionConfig, folder / "training.toml", tmp_path / "run", mixed)
@@ -146,25 +106,6 @@ def test_a_published_file_is_read_as_that_network_and_gives_its_images(folder, t
     assert all(torch.equal(one, again.tensors[key]) for key, one in network.tensors.items())
 
 
-def test_some_windows_are_scored_and_all_are_seen(folder):
-    every, third = (ReconstructionTask(config_of(folder, score_every=number)) for number in (1, 3))
-    clips, network = every._validation, every.make_network()
-    reconstructor = Reconstructor(FIRENET, network)
-    values = []
-    for number in range(len(clips)):
-        reconstructor.reset()
-        windows = clips.read(number)
-        images = [reconstructor.reconstruct(events) for events in windows.events]
-        for place in (2, 5):
-            true = windows.targets["frame"][place].astype(np.float64) / 255
-            values.append(mean_squared_error(images[place].astype(np.float64), true))
-    with torch.inference_mode():
-        assert third.validate(network, DEVICE, workers=0)[0]["mse"] == pytest.approx(
-            np.mean(values)
-        )
-        assert every.validate(network, DEVICE, workers=0)[0]["mse"] != np.mean(values)
-
-
 def test_lpips_is_trained_with_where_its_weights_are(folder, tmp_path, capsys):
     pulled = tmp_path / "texvent-cache" / "weights"
     pulled.mkdir(parents=True)
@@ -181,24 +122,6 @@ def test_lpips_is_trained_with_where_its_weights_are(folder, tmp_path, capsys):
     finally:
         write_specification(folder)
     assert {"ssim", "mse", "lpips"} <= state.rows[0].keys()
-
-
-def test_videos_train_without_flow(tmp_path):
-    frames = np.full((12, 20, 20), 200, np.uint8)
-    for number in range(12):
-        frames[number, 4:14, number : number + 6] = 20
-    np.save(tmp_path / "a.npy", frames)
-    np.save(tmp_path / "b.npy", frames[::-1])
-    write_specification(
-        tmp_path,
-        f'name = "v"\noptions = {{fps = 50}}\nsplits = {{train = 0.5, validation = 0.5}}\n'
-        f'[[sources]]\nvideos = ["{tmp_path}/a.npy", "{tmp_path}/b.npy"]\n',
-    )
-    path = write(tmp_path, TRAINING.replace('variant = "esim"\n', ""))
-    task = ReconstructionTask(read_training(path, ReconstructionConfig()))
-    batch = next(task.batches(workers=0).epoch(0))
-    assert "flow" not in batch
-    assert task.loss(task.make_network(), batch, DEVICE).item() > 0
 
 
 def voxels(count: int = 2) -> torch.Tensor:
