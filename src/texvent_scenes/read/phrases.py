@@ -168,7 +168,8 @@ def apply_phrase(draft: SceneDraft, phrase: Phrase, subjects: Indices, moved: In
     targets = list[int]()
     owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"
     for group in phrase.groups:
-        targets += name_group(draft, group, kind or token.text, owners)
+        how = "at" if token.text == "along" else kind or token.text  # "along a corridor"
+        targets += name_group(draft, group, how, owners)
     heads = heads_of(phrase.groups)
     if not targets:
         is_place = all(names_place(one, kind or token.text) for one in heads)

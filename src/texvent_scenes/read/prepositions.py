@@ -168,8 +168,8 @@ def go_to_place(
     does = {each["kind"] for one in moved for each in draft.things[one]["motions"][-1:]}
     at_home = _AT_HOME.get((token.text, "".join(names)), set())
     is_home = bool(does) and does <= at_home
-    is_seen = draft.beside(token, -1).text in word_set("things", "viewed")  # "seen from a beach"
-    is_home |= token.text == "from" and is_seen and place is PLACES.get("".join(names))
+    is_seen = draft.beside(token, -1).text in word_set("things", "viewed") and token.text == "from"
+    is_home |= is_seen and place is PLACES.get("".join(names))  # "seen from a beach"
     lands = token.text == "onto" and does and does <= _LANDING
     lands = bool(lands) or (token.text in ("to", "onto") and "set down" in draft.acts(subjects))
     if is_entered or is_home or lands or (token.text == "from" and rises):

@@ -19,8 +19,7 @@ RULES = {
     ],
     "who is led along does what follows": [
         ("a man walks with a dog running alongside", "man, walk, with dog; dog, run, beside man"),
-        ("a boy hikes with a cat jumping beside him",
-         "child, walk 0.9, with cat; cat, jump, beside child"),
+        ("a boy walks, a cat jumping alongside", "child, walk; cat, jump, beside child"),
         ("a nurse walks with a child running behind her",
          "nurse, walk, with child; child, run, follow nurse"),
     ],
@@ -33,6 +32,7 @@ RULES = {
         ("a tram rolls past a cafe", "tram, roll, past shop; shop; as cafe: shop"),
         ("a dog sits next to a pub", "dog, sit, beside shop; shop; as pub: shop"),
         ("a bus in front of a school", "bus, front building; building; as school: building"),
+        ("a man walks along a corridor", "man, walk; place name corridor"),
     ],
     "a place is behind who is in it": [
         ("a flower with a garden behind it", "flower; place name backyard"),

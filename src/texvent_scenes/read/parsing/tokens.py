@@ -274,8 +274,7 @@ def _read_phrase(
         if len(phrase) > 1 and found:
             found = _without_chance(found, words, end, before)
             found = () if _is_shade(words, end, lexicon) else found
-            found = () if _is_doing(words, end, lexicon) else found
-            found = () if _leads_on(words, end, lexicon) else found
+            found = () if _is_doing(words, end, lexicon) or _leads(words, end, lexicon) else found
             is_name = all(one.kind == "noun" for one in found)
             found = () if is_name and _begins_name(words, at, end, lexicon) else found
             is_thing = len(phrase) == 2 < end + 1 - at  # "approaching the camera", no camera
@@ -325,7 +324,7 @@ def _is_doing(words: Sequence[str], end: int, lexicon: Lexicon) -> bool:
     return is_act and any(one.kind in ("scene", "effect") for one in lexicon.get(both, ()))
 
 
-def _leads_on(words: Sequence[str], end: int, lexicon: Lexicon) -> bool:
+def _leads(words: Sequence[str], end: int, lexicon: Lexicon) -> bool:
     """Whether a phrase's last word begins a preposition of several: "turns | on top of a hill"."""
     after = tuple(one.casefold() for one in words[end : end + 3])
     return len(after) == 3 and any(one.kind == "relation" for one in lexicon.get(after, ()))
