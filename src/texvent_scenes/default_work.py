@@ -117,6 +117,26 @@ def _sense(direction: Direction | None, heading_deg: float) -> Direction | None:
     return "clockwise" if along < 0.0 else "counter-clockwise"
 
 
+def name_sides(one: SceneObject) -> tuple[Motion, ...]:
+    """Motions of an object, those of a belt with the side to which its goods go, not its sense."""
+    first = next((each.direction for each in one.motions if each.kind == "work"), None)
+    base_deg = one.heading_deg if one.heading_deg is not None else _WAYS_DEG.get(first)
+    is_belt = trait_value("belt speed", one.noun) is not None
+    if not is_belt or one.noun in nouns_with("flat pattern") or base_deg is None:
+        return one.motions
+    return tuple(
+        replace(each, direction=_side_of(base_deg + 180.0 * (each.direction == "clockwise")))
+        if each.kind == "work" and each.direction in (None, "clockwise", "counter-clockwise")
+        else each
+        for each in one.motions
+    )
+
+
+def _side_of(heading_deg: float) -> Direction | None:
+    """The direction nearest to a heading."""
+    return max(_WAYS_DEG, key=lambda way: math.cos(math.radians(_WAYS_DEG[way] - heading_deg)))
+
+
 def list_work(motions: Sequence[Motion], noun: Noun) -> tuple[Motion, ...]:
     """Work and rest in turn; a belt lies as it runs first, and runs backwards to the other side."""
     done = [STANDING if one.kind == "stand" else work_of(one, noun) for one in motions]

@@ -143,10 +143,13 @@ def report_of(description: SceneDescription) -> PromptReport:
         >>> report_of(SceneDescription(objects=(car,))).lines()
         ['objects: noun = "car", motions = [{ kind = "drive", direction = "left" }]']
     """
+    from texvent_scenes.default_work import name_sides  # which describes with this module
+
     objects = tuple(
-        replace(one, id="" if one.id == one.noun else one.id, motions=tuple(map(said, one.motions)))
+        replace(one, id="" if one.id == one.noun else one.id,
+                motions=tuple(map(said, name_sides(one))))
         for one in description.objects
-    )
+    )  # fmt: skip
     values = {one.name: getattr(description, one.name) for one in fields(Scene)}
     data = scene_to_data(Scene(**{**values, "objects": objects, "prompt": ""}))
     parts = [(name, part if isinstance(part, list) else [part]) for name, part in data.items()]

@@ -6,6 +6,7 @@ import itertools
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 
@@ -312,8 +313,8 @@ def _scatter_all(
         # What stands before the mountains on land would stand in the sea.
         rules.extend(far if far and PLACES[place].ground is Ground.SEA else own)
     telling = list_telling(place) if is_said_room(description, place) else ()
-    rng = seeded(seed, "scenery", place)
-    return scatter(rules, view, actors, unsaid, rng=rng, telling=telling)
+    draw = partial(seeded, seed, "scenery", place)
+    return scatter(rules, view, actors, unsaid, draw=draw, telling=telling)
 
 
 def kind_of(noun: Noun) -> str:

@@ -2,14 +2,16 @@
 
 import itertools
 import math
+import re
 
 import numpy as np
 import pytest
 from tests.scenes.every_row import for_every
 from tests.scenes.staged import SIZE, place
 
+from texvent_scenes.description import report_of
 from texvent_scenes.models.nouns import NOUNS
-from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.scene_input import describe_scene, understand
 from texvent_scenes.spec.scene import Light, Motion, Place, Relation, Scene, SceneObject
 from texvent_scenes.staging.compose import compose_scene
@@ -184,3 +186,22 @@ def test_what_sways_on_a_thing_keeps_its_foot_there(row):
     lows = [one.lowest_m(at) for at in np.linspace(0.0, 2.0, 25)]
     assert np.ptp(lows) < 0.01
     assert lows[0] > 0.5 * bearer.model.height
+
+
+BELTS = sorted(name for name in NOUNS if trait_value("belt speed", name) is not None
+               and name not in nouns_with("flat pattern"))  # fmt: skip
+SIDES = [(), (None,), ("left",), ("right",), ("left", "right"), ("right", "left")]
+
+
+@for_every(itertools.product(BELTS, (None, 0.0, 180.0), SIDES))
+def test_a_belt_is_read_with_the_sides_that_are_stated_not_with_senses_of_turning(row):
+    noun, heading_deg, sides = row
+    motions = [Motion("work", side, start_s=float(n) or None) for n, side in enumerate(sides)]
+    belt = SceneObject(noun, motions=motions, heading_deg=heading_deg)
+    disc = SceneObject("dice", motions=(Motion("spin", "counter-clockwise"),))
+    said = describe_scene(Scene(objects=(belt, disc), place=PLACE), NOUNS)
+    line = report_of(said).scene[0]
+    assert "clockwise" not in line
+    told = re.findall(r'direction = "(\w+)"', line)
+    stated = [side for side in sides if side is not None]
+    assert told == stated or (not stated and heading_deg is not None and len(told) == 1)

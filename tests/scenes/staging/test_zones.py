@@ -2,6 +2,7 @@
 
 import itertools
 import math
+from functools import partial
 
 import numpy as np
 import pytest
@@ -111,7 +112,7 @@ def test_rails_lie_under_the_train_and_others_beside_them(kind):
     x, y, _ = train.middle(0.0)
     view = ViewClearance([scene.camera(0.0)], [], 9.0, None, RoadLine(1.0))
     rule = next(one for one in PLACES["railway"].scenery if one.noun == "railway track")
-    (rails,) = scatter([rule], view, scene.actors, NOUNS, rng=seeded(0, "rails"))
+    (rails,) = scatter([rule], view, scene.actors, NOUNS, draw=partial(seeded, 0, "rails"))
     line = RoadLine(rails.yaw, rails.position)
     assert abs(line.across(np.array([[x, y]]))[0]) < 1e-6
     assert abs(math.sin(rails.yaw - train.track.at(0.0).yaw)) < 1e-6

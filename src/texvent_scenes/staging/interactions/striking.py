@@ -93,6 +93,8 @@ _TURN_ROUND_S = 0.08
 """Duration of the change of speed at the contact."""
 _DELIVERED_M, _MOST_FLIGHT_S, _LOW = 4.0, 1.0, 0.12
 """Way of what is sent to a receiver, m; its time, s; upward share of its speed along the ground."""
+_MOST_COME = 0.6
+"""Most way of what comes to be hit, as a share of that on which it then goes."""
 _PITCHED_M, _ON_TEE = 2.6, 0.2
 """Most way of what comes to be hit, m; height below which it waits on the ground, in that of who
 hits it."""
@@ -304,11 +306,14 @@ def deliver(
     track, person = thing.track, is_person(receiver)
     sent_s, size = sum(key.duration_s for key in track.keys[:-1]), size_of(receiver.model)
     flown_s = min(max(duration_s - sent_s - 0.2, 0.2), _MOST_FLIGHT_S)
-    speed = min(track.keys[-1].speed_m_s, _DELIVERED_M / flown_s)
-    (x, y, z), level_m = track.start, receiver.track.at(0.0).position[2]
+    sense = math.copysign(1.0, track.keys[-1].speed_m_s)  # what is hit goes back as it came
+    speed = min(abs(track.keys[-1].speed_m_s), _DELIVERED_M / flown_s)
+    (x, y, z), level_m = track.at(sent_s).position, receiver.track.at(0.0).position[2]
     caught_m = level_m + (1.08 * size if person else 0.62 * receiver.model.height) - thing.lift_m
     up = (caught_m - z) / flown_s + 0.5 * GRAVITY_M_S2 * flown_s
-    flight = replace(track.keys[-1], duration_s=flown_s, speed_m_s=speed, climb_m_s=up, ramp_s=0.0)
+    flight = replace(
+        track.keys[-1], duration_s=flown_s, speed_m_s=sense * speed, climb_m_s=up, ramp_s=0.0
+    )
     last = Key(1.0, ramp_s=0.0) if is_thrown else Key(1.0, ramp_s=0.15, restitution=0.2)
     if not is_thrown:
         flight = replace(flight, climb_m_s=_LOW * speed)
@@ -320,17 +325,14 @@ def deliver(
         room_m = arm_m + (0.0 if is_thrown else 0.5 * thing.model.length)
         slows_s = 0.5 * last.ramp_s
         speed = max(float(np.hypot(*over)) - room_m, 0.0) / (flown_s + slows_s)
-        turn = math.remainder(math.atan2(over[1], over[0]) - track.yaw, math.tau)
-        flight = replace(flight, speed_m_s=speed)
-        track = replace(track, yaw=track.yaw + turn)
-        turned = tuple(one._replace(offset=one.offset - turn * (one.channel == "yaw"))
-                      for one in sent.terms)  # fmt: skip
-        keys = (*track.keys[:-1], flight, last)
-        sent = replace(sent, yaw=track.yaw, keys=keys, terms=turned)
+        flight = replace(flight, speed_m_s=sense * speed)
+        sent = _aimed(replace(sent, keys=(*track.keys[:-1], flight, last)), over)
+        track = replace(track, yaw=sent.yaw)
     way_m = speed * flown_s + arm_m + (0.0 if is_thrown else 0.5 * thing.model.length)
-    place = ahead((x, y, level_m), track.yaw, way_m, level_m)
+    heading = track.yaw if sense > 0.0 else track.yaw + math.pi
+    place = ahead((x, y, level_m), heading, way_m, level_m)
     place = receiver.track.at(0.0).position if is_placed else place
-    rest = steady(place, track.yaw + math.pi, activity="stand")
+    rest = steady(place, heading + math.pi, activity="stand")
     if is_thrown and not person:
         return _leap_for(replace(thing, track=sent), replace(receiver, track=rest), flown_s)
     if is_thrown:
@@ -347,23 +349,39 @@ def deliver(
     return replace(thing, track=sent), moving(receiver, rest)
 
 
+def _aimed(track: Track, way: Sequence[float] | Float64Array) -> Track:
+    """The track of what is sent, its flight along a way [2]; what is hit comes from there."""
+    flight, came_s = track.keys[-2], sum(key.duration_s for key in track.keys[:-2])
+    x, y, z = track.at(came_s).position
+    sense = math.copysign(1.0, flight.speed_m_s)
+    heading = math.atan2(way[1], way[0]) + (math.pi if sense < 0.0 else 0.0)
+    turn = math.remainder(heading - track.yaw, math.tau)
+    came_m = float(np.hypot(x - track.start[0], y - track.start[1]))
+    near = min(1.0, _MOST_COME * float(np.hypot(way[0], way[1])) / max(came_m, 1e-9))
+    come = (replace(one, speed_m_s=near * one.speed_m_s) for one in track.keys[:-2])
+    terms = (one._replace(offset=one.offset - turn * (one.channel == "yaw"))
+             for one in track.terms)  # fmt: skip
+    return replace(
+        track, start=ahead((x, y, z), track.yaw + turn, -near * came_m, track.start[2]),
+        yaw=track.yaw + turn, keys=(*come, *track.keys[-2:]), terms=tuple(terms),
+    )  # fmt: skip
+
+
 def _leap_for(thing: Actor, animal: Actor, flown_s: float) -> tuple[Actor, Actor]:
     """Both, the thing that is thrown ending at the mouth of an animal that leaps for it."""
     track, flight = thing.track, thing.track.keys[-2]
+    sense = math.copysign(1.0, flight.speed_m_s)
     caught_s = sum(key.duration_s for key in track.keys[:-1])
     animal = moving(animal, _leap(animal, caught_s))
     held = held_at(animal, "mouth", shift(0.0, 0.0, -thing.lift_m), is_upright=True)
     end = held.at(caught_s).position
-    way, hop_m = np.subtract(end, track.start), end[2] - held.at(0.0).position[2]
+    way, hop_m = np.subtract(end, track.at(caught_s - flown_s).position), end[2] - held.at(0.0).position[2]
     up_m_s = float(way[2]) / flown_s + 0.5 * GRAVITY_M_S2 * flown_s
-    turn = math.remainder(math.atan2(way[1], way[0]) - track.yaw, math.tau)
-    terms = tuple(one._replace(offset=one.offset - turn * (one.channel == "yaw"))
-                  for one in track.terms)  # fmt: skip
     speed_m_s = float(np.hypot(*way[:2])) / flown_s
-    flight = replace(flight, speed_m_s=speed_m_s, climb_m_s=up_m_s)
+    flight = replace(flight, speed_m_s=sense * speed_m_s, climb_m_s=up_m_s)
     keys = (*track.keys[:-2], flight, Key(1.0, ramp_s=0.0, restitution=0.0))  # down with it
     floor_m = float(end[2] - hop_m)
-    track = replace(track, yaw=track.yaw + turn, keys=keys, terms=terms, floor_m=floor_m)
+    track = replace(_aimed(replace(track, keys=keys), way), floor_m=floor_m)
     return replace(thing, track=track), animal
 
 

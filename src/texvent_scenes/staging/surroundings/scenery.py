@@ -10,6 +10,7 @@ import itertools
 import math
 from collections import defaultdict
 from collections.abc import Callable, Collection, Mapping, Sequence
+from typing import TypeAlias
 
 import numpy as np
 
@@ -66,13 +67,17 @@ _ALONG_LINES = ("kerb", "bays")
 """Regions in which pieces stand along lines, close to others."""
 
 
+Draw: TypeAlias = Callable[..., np.random.Generator]
+"""Role → the generator of its draws; the same role has the same."""
+
+
 def scatter(
     rules: Sequence[Scenery],
     view: ViewClearance,
     actors: Sequence[Actor],
     nouns: Mapping[str, Noun],
     *,
-    rng: np.random.Generator,
+    draw: Draw,
     telling: Collection[str] = (),
 ) -> list[SceneryItem]:
     """Scatter scenery where the camera sees it and it hides and blocks nothing.
@@ -82,14 +87,15 @@ def scatter(
         view: the camera over the clip, its route, and what it must see.
         actors: the objects of the scene.
         nouns: table of models; a noun that is missing is left out.
-        rng: decides places, sizes and turns.
+        draw: decides places, sizes and turns: a generator for each role of each piece, so that
+            none depends on which others find room.
         telling: nouns of which one should be in the image.
 
     Returns:
         The pieces that found a place; fewer than wanted where it is crowded.
     """
     rules = [rule for rule in rules if rule.noun in nouns]
-    work = _Scatterer(view, actors, nouns, rng)
+    work = _Scatterer(view, actors, nouns, draw)
     beside: list[Scenery] = []
     if view.travel is not None:
         apart = ("far", "walls")
@@ -113,7 +119,7 @@ class _Scatterer:
         view: ViewClearance,
         actors: Sequence[Actor],
         nouns: Mapping[str, Noun],
-        rng: np.random.Generator,
+        draw: Draw,
     ) -> None:
         self.items: list[SceneryItem] = []
         self._stands: Mapping[str, Callable[[Scenery, Model, PosedCamera], SceneryItem | None]]
@@ -123,7 +129,10 @@ class _Scatterer:
             kerb=self._stand_at_kerb,
             bays=self._stand_in_bay,
         )
-        self._view, self._nouns, self._rng, self._actors = view, nouns, rng, actors
+        self._view, self._nouns, self._draw, self._actors = view, nouns, draw, actors
+        self._rng = draw()
+        self._rules: dict[str, int] = defaultdict(int)
+        """Noun → rules of it that are done, for several of a place are of one noun."""
         self._yaw = actors[0].track.at(0.0).yaw if actors else 0.0
         """Heading of the first object."""
         self._has_mover = any(one.is_mover for one in actors)
@@ -153,14 +162,22 @@ class _Scatterer:
         fit = min(max(self._view.distance_m / _USUAL_DISTANCE_M, 0.15), 1.5) if rule.grows else 1.0
         is_tall = rule.noun in nouns_with("towering")
         more = min(max(self._view.distance_m / _NEAR_CITY_M, 1.0), _MOST_CITY) if is_tall else 1.0
+        role = self._role_of(rule)
         for copy in range(round(more * rule.count)):
+            self._rng = self._draw(*role, copy)
             model = self._build(rule, copy, fit)
-            for _ in range(_ATTEMPTS):
+            for attempt in range(_ATTEMPTS):
+                self._rng = self._draw(*role, copy, attempt)
                 camera = self._view.cameras[int(self._rng.integers(len(self._view.cameras)))]
                 item = self._stands[rule.where](rule, model, camera)
                 if item is not None and self._is_free(item):
                     self.items.append(item)
                     break
+
+    def _role_of(self, rule: Scenery) -> tuple[str, int]:
+        """A rule among those of its noun."""
+        self._rules[rule.noun] += 1
+        return rule.noun, self._rules[rule.noun]
 
     def line_route(self, rules: Sequence[Scenery], travel: TravelPlan) -> None:
         """Pieces on both sides of a route, from behind its beginning to beyond its end.
@@ -178,8 +195,9 @@ class _Scatterer:
         ends_m = {rule: field_m if rule in crops else length for rule in rules}
         stretch = sum(2.0 * ends_m[one] / step for one, step in spacing.items()) / _MOST_ITEMS
         for rule, side in itertools.product(spacing, (1.0, -1.0)):
-            step = max(1.0, stretch) * spacing[rule]
+            role, step = self._role_of(rule), max(1.0, stretch) * spacing[rule]
             for number in range(math.ceil(ends_m[rule] / step)):
+                self._rng = self._draw(*role, number)
                 along = step * (number + float(self._rng.uniform(0.1, 0.9))) - _BEFORE_M
                 item = self._stand_beside(rule, number, travel, along, side)
                 if self._is_free(item):
@@ -211,6 +229,7 @@ class _Scatterer:
             return
         forward, right = _axes(camera)
         for rule, share in itertools.product(rules, _WALL_SHARES):
+            self._rng = self._draw(rule.noun, "telling")
             way = forward + share / camera.focal * right
             item = self._stand_before(rule, self._build(rule, 0), way)
             if item.share_of(camera) and self._is_free(item):
@@ -241,6 +260,7 @@ class _Scatterer:
         spot = (float(x + ahead * math.cos(self._yaw)), float(y + ahead * math.sin(self._yaw)))
         usual = Laid(spot, self._view.road.angle)
         for one in lay_lines(rule.noun, usual, self._actors, self._view):
+            self._rng = self._draw(rule.noun, "under")
             model = self._build(rule, 0, one.scale)
             self.items.append(SceneryItem(rule, model, one.spot, one.angle))
 
