@@ -116,7 +116,9 @@ def look_of(emitter, time_s):
 
 @for_every(EFFECTS)
 def test_particles_that_begin_later_or_go_slower_are_the_same_by_their_own_clock(kind):
-    for one, start_s in itertools.product(staged(Effect(kind, "box")).particles.effects, (0.3, 2.7)):
+    for one, start_s in itertools.product(
+        staged(Effect(kind, "box")).particles.effects, (0.3, 2.7)
+    ):
         first, late, slow = (
             Emitter.of(replace(one.style, curl=0.0), one.source, one.setting,
                        np.random.default_rng(2), start_s=start, pace=pace)

@@ -214,7 +214,10 @@ def test_a_colour_keeps_what_is_brighter_by_luma(seed):
 @given(seed=st.integers(0, 2**31), half=st.tuples(*3 * [st.floats(0.05, 5.0)]))
 def test_the_mean_colour_of_a_mesh_is_that_over_its_area_in_the_file(seed, half):
     rng = np.random.default_rng(seed)
-    vertices, triangles = rng.normal(size=(9, 3)) * half, rng.permuted([range(9)] * 4, axis=1)[:, :3]
+    vertices, triangles = (
+        rng.normal(size=(9, 3)) * half,
+        rng.permuted([range(9)] * 4, axis=1)[:, :3],
+    )
     colours, image = rng.uniform(size=(4, 3, 3)), rng.integers(-1, 2, 4)
     texels = rng.uniform(size=(2, 4, 4, 3))
     means = np.vstack([texels.mean(axis=(1, 2)), np.ones(3)])[image]
