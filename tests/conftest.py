@@ -89,6 +89,8 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 _LONG_TABLE = 12
 """Rows from which on a brief run tries every second one."""
+_STAGED = tuple(f"tests/scenes/{one}" for one in ("staging/", "checks/", "read/", "test_"))
+"""Tests that stage a scene for each row."""
 
 
 def choose_rows(items: list[pytest.Item]) -> set[str]:
@@ -112,8 +114,7 @@ def choose_rows(items: list[pytest.Item]) -> set[str]:
                     seen |= row
                     own.append(name)
         # Sentences and nouns are many of a kind, and each is staged; so are rows of long tables.
-        is_of_scenes = own[0].startswith("tests/scenes/")
-        share = 4 if is_of_scenes else 2 if len(own) >= _LONG_TABLE else 1
+        share = 4 if own[0].startswith(_STAGED) else 2 if len(own) >= _LONG_TABLE else 1
         chosen |= {*own[: -(-len(own) // share)]}
     return chosen
 

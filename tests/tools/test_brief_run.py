@@ -28,8 +28,8 @@ def test_each_row_of_each_table_has_its_turn_and_few_have_more(tables):
     for place, count in enumerate(tables):
         assert {rows[place] for rows in chosen} == {*map(str, range(count))}
     assert max(tables, default=1) <= len(chosen) <= max(sum(tables), 1)
-    of_scenes = brief_run(*tables, file="tests/scenes/a.py")
-    assert max(tables, default=1) <= 4 * len(of_scenes) <= max(sum(tables), 1) + 3
+    staged = brief_run(*tables, file="tests/scenes/staging/test_a.py")
+    assert max(tables, default=1) <= 4 * len(staged) <= max(sum(tables), 1) + 3
 
 
 @pytest.mark.parametrize(("rows", "kept"), [(11, 11), (12, 6), (25, 13)])

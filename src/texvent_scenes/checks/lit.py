@@ -25,7 +25,7 @@ def shows_lit_colour(staged: StagedClip, claim: Claim) -> bool:
     if not is_lit_in(own, claim, staged.fine_times, lamps.place):
         return False
     rgb = find_colour(str(claim.value), SURFACES)
-    return all(any(_is_any_seen(staged, _list_places(staged, one, rgb, at), at)
+    return all(any(is_any_seen(staged, _list_places(staged, one, rgb, at), at)
                    for at in staged.times) for one in own)  # fmt: skip
 
 
@@ -36,7 +36,7 @@ def shows_lamp(staged: StagedClip, claim: Claim) -> bool:
     """
     own = {one.instance for one in staged.own(claim)}
     lit = [one for one in staged.scene.lamps.lit if one.actor.instance in own]
-    return any(_is_any_seen(staged, _list_lit(one, str(claim.value), at), at)
+    return any(is_any_seen(staged, _list_lit(one, str(claim.value), at), at)
                for one in lit for at in staged.times)  # fmt: skip
 
 
@@ -62,7 +62,7 @@ def _list_places(
     return np.asarray(middles @ to_world[:, :3].T + to_world[:, 3])
 
 
-def _is_any_seen(staged: StagedClip, places: Float64Array, time_s: float) -> bool:
+def is_any_seen(staged: StagedClip, places: Float64Array, time_s: float) -> bool:
     """Whether nothing stands before one of some places, [n, 3] m, in the image."""
     if not len(places):
         return False

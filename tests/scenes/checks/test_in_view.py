@@ -12,7 +12,7 @@ from tests.examples import examples
 from tests.scenes.staged import DURATION_S, SIZE, in_image, stage, thing
 
 from texvent.sensor import SensorSize
-from texvent_scenes.checks.body_boxes import BodyBoxes
+from texvent_scenes.checks.body_boxes import BodyBoxes, body_of, is_any_inside
 from texvent_scenes.checks.in_view import (
     LEAST_PIXELS,
     MOST_POINTS,
@@ -20,14 +20,16 @@ from texvent_scenes.checks.in_view import (
     count_pixels,
     find_unseen,
 )
+from texvent_scenes.checks.lit import is_any_seen
 from texvent_scenes.checks.relation_rules import RULES
 from texvent_scenes.checks.relations import holds
+from texvent_scenes.checks.staged_clip import StagedClip
 from texvent_scenes.description import IndexedRelation, SceneDescription
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.raycast.ground_truth import ground_truth
-from texvent_scenes.spec.scene import Motion, SceneObject
+from texvent_scenes.spec.scene import Camera, CameraMove, Motion, SceneObject
 from texvent_scenes.staging.camera.camera_track import CameraTrack
-from texvent_scenes.staging.camera.framing import USUAL_FOCAL, pose
+from texvent_scenes.staging.camera.framing import USUAL_FOCAL, image_of, pose
 
 CAR = SceneObject("car")
 
@@ -389,6 +391,40 @@ def test_boxes_at_the_end_of_a_way_have_the_parts_and_the_heading_of_that_instan
     assert last.ahead.tolist() == [[1.0, 0.0]]
     assert RULES["on"](rider.cut(slice(-1, None)), last).all()
     assert not RULES["on"](rider.cut(slice(-1, None)), start).any()
+
+
+SHOOTS = [(), ("pan", "orbit"), ("roll", "dolly"), ("follow",), ("tilt", "truck", "zoom")]
+
+
+@pytest.mark.parametrize("shot", SHOOTS)
+def test_a_body_is_seen_by_each_camera_and_displaced_as_that_of_mid_clip_sees_it(shot):
+    camera = Camera(tuple(CameraMove(kind) for kind in shot))
+    scene, times = stage(thing("dog", ("walk", "left")), camera=camera), [0.0, 0.7, 1.2, 1.6, 1.9]
+    cameras, (one,) = [scene.camera(at) for at in times], scene.actors
+    body = body_of(one, cameras, times)
+    for at, view, middle, seen in zip(times, cameras, body.middle, body.seen, strict=True):
+        ends = one.corners(at).min(axis=0), one.corners(at).max(axis=0)
+        np.testing.assert_allclose(middle, 0.5 * np.add(*ends))
+        x, y, depth = image_of(view, middle)
+        np.testing.assert_allclose(seen, [x / view.focal, y / view.focal, depth])
+    first, last = (cameras[2].rotation @ body.middle[n] for n in (0, -1))
+    np.testing.assert_allclose(body.displacement, last - first)
+
+
+IN_IMAGE = {
+    "any": lambda scene, place: is_any_inside(place, scene.camera(0.0), SIZE),
+    "lamp": lambda scene, place: is_any_seen(StagedClip(scene, None, SIZE, 2.0), place, 0.0),
+}
+
+
+def test_what_is_in_the_image_is_so_up_to_each_of_its_edges_and_not_behind_the_camera():
+    scene = stage(thing("ball"))
+    view, edges = scene.camera(0.0), (-0.51, -0.49, 0.49, 0.51)
+    for check, x, y, depth in itertools.product(IN_IMAGE, edges, edges, (0.3, -0.3)):
+        aside = depth * np.array([x, y * SIZE.height / SIZE.width]) / view.focal
+        place = view.position + np.array([*aside, depth]) @ view.rotation
+        is_in = max(abs(x), abs(y)) < 0.5 and depth > 0.0
+        assert IN_IMAGE[check](scene, place[None]) == is_in, (check, x, y, depth)
 
 
 def count_own(scene):

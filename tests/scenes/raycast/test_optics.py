@@ -168,3 +168,16 @@ def test_a_mirror_shows_what_a_camera_behind_it_would_see(texture):
     assert np.abs(expected - SKY).max(axis=2)[compared].mean() > 0.03
     assert np.median(off) < 0.05
     assert np.mean(off > 0.12) < 0.03
+
+
+@pytest.mark.parametrize("texture", Texture)
+def test_what_is_mirrored_has_the_mean_of_both_colours_of_a_pattern(texture):
+    first, second = (0.8, 0.1, 0.05), (0.2, 0.7, 0.45)
+    mean = first
+    if texture in (Texture.STRIPES, Texture.CHECKS, Texture.MOTTLED):
+        mean = tuple(0.5 * np.add(first, second))
+    looks = [dict(colour=first, second=second, texture=texture), dict(colour=mean)]
+    light = [world_at(HandScene((MovingShape(Shape.BOX, (1.0, 1.0, 1.0), still(0, 0, 1), **look),)),
+                      0.0, SIZE).mirrored["light"] for look in looks]  # fmt: skip
+    assert len(light[0]) == 1
+    np.testing.assert_allclose(*light, rtol=1e-6)

@@ -58,7 +58,8 @@ def test_blur_of_a_moving_edge_is_a_ramp_in_linear_light() -> None:
 
 def test_a_short_exposure_is_one_instant_drawn_as_an_image_with_the_same_options() -> None:
     box = MovingShape(Shape.BOX, (1.0, 1.0, 1.0), moving((-1.0, 0.0, 1.0), (3.0, 0.0, 0.0)))
-    scene = HandScene((box,), lambda _: look_at((0.0, -8.0, 3.0), (0.0, 0.0, 0.0)), day())
+    zoom = look_at((0.0, -8.0, 3.0), (0.0, 0.0, 0.0))
+    scene = HandScene((box,), lambda at: replace(zoom, focal=0.5 + 9.0 * at), day())
     shutter, drawn = Shutter(0.0, 0.0, SIZE.height), []
     for samples, shadows, optics in product(
         (1, 3), (False, True), (PERFECT, Optics(0.8, vignetting=True))

@@ -64,6 +64,33 @@ def test_the_camera_stops_where_the_subject_reaches_the_goal(goal):
     assert np.all(image <= [SIZE.width, SIZE.height])
 
 
+SHOT = {"azimuth": 0.0, "elevation": 0.0, "aspect": ASPECT}
+
+
+@examples(30)
+@given(st.tuples(*2 * [st.floats(0.2, 6.0)]), st.floats(0.0, 2.0), st.floats(0.3, 0.95))
+def test_a_framing_shows_all_and_as_much_sky_as_that_leaves(sides, lift, fill):
+    box, lows = flat_box(*sides), []
+    for raised in (0.0, lift):
+        seen = image_of(camera_at(fit(box, **SHOT, fill=fill, lift=raised)), box)
+        across, low = np.abs(seen[:, 0]).max() / 0.5, seen[:, 1].max() / (0.5 * ASPECT)
+        assert max(across, low) <= fill + 1e-6
+        lows.append(low)
+    assert lows[1] == pytest.approx(min(lows[0] + lift, fill))
+
+
+@examples(30)
+@given(st.lists(st.floats(-9.0, 9.0), min_size=2, max_size=6), st.floats(0.2, 2.0))
+def test_a_group_is_as_prominent_as_its_copies_and_all_of_it_together(places, side):
+    boxes = np.array([flat_box(side, side, x) for x in places])
+    camera = camera_at(fit(np.vstack(boxes), **SHOT, fill=0.8))
+    image = image_of(camera, boxes)[..., :2] / [1.0, ASPECT]
+    own, whole = side / ASPECT**0.5 * camera.focal, np.ptp(image.reshape(-1, 2), axis=0).max()
+    own /= image_of(camera, boxes[0])[0, 2]
+    expected = max(own / 0.3, min(own / 0.13, whole / 0.65))
+    assert measure_prominence(camera, boxes, ASPECT) == pytest.approx(expected)
+
+
 def extent_of(scene):
     """Focal length over depth of the subject's middle, which its size in the image goes with."""
     camera = scene.camera(0.5 * DURATION_S)

@@ -21,6 +21,7 @@ from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.camera.framing import image_of
 from texvent_scenes.staging.compose import ComposedScene, compose_scene
 from texvent_scenes.staging.interactions.perform import ACTS
+from texvent_scenes.staging.surroundings.pieces import SceneryItem
 
 SIZE = SensorSize(346, 260)
 PROMPTS = (
@@ -148,3 +149,22 @@ def test_a_camera_that_moves_through_a_field_has_its_plants_before_it(place):
     crop = max(PLACES[place].scenery, key=lambda one: one.count).noun
     items = [one for one in scene.scenery if one.rule.noun == crop]
     assert sum(one.share_of(scene.camera(0.0)) > 0.0 for one in items) >= 8
+
+
+@pytest.mark.parametrize("noun", ["car", "bench", "bus", "billboard"])
+def test_the_share_of_the_image_that_scenery_takes_is_that_of_its_box_as_it_stands(noun):
+    view = PosedCamera(
+        np.array([0.0, -30.0, 3.0]), np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]), 1.1
+    )
+    model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
+    rule = next(one for one in PLACES["city"].scenery if one.where != "under")
+    shares = []
+    for yaw in np.linspace(0.0, 3.0, 7):
+        item = SceneryItem(rule, model, (3.0, 1.0), float(yaw), 0.4)
+        half, to_world = 0.5 * np.array([model.length, model.width]), item.place().to_world
+        box = [[x, y, z] for x in (-half[0], half[0]) for y in (-half[1], half[1])
+               for z in (0.0, model.height)]  # fmt: skip
+        seen = image_of(view, box @ to_world[:, :3].T + to_world[:, 3])[:, :2]
+        shares.append(float(np.prod(np.ptp(seen, axis=0))) / 0.75)
+        assert item.share_of(view) == pytest.approx(shares[-1])
+    assert max(shares) > 1.1 * min(shares)

@@ -86,6 +86,16 @@ def test_a_follower_that_only_goes_and_one_without_motions_do_the_same(row):
         np.testing.assert_allclose(*ends, atol=1e-9)
 
 
+@for_every(itertools.product((PAIRS[2], ("ball", "apple", "roll", 1.0)), LEGS, (1.5,)))
+def test_a_follower_covers_the_way_that_is_seen_and_rolls_by_it(row):
+    pair, names, far_m = row
+    _, one = follow(pair, names, far_m, motions=(Motion(pair[2]),))
+    assert (one.radius_m > 0.0) == (pair[1] == "apple")
+    for at in (0.7, 2.1):
+        assert one.at(at).distance_m == pytest.approx(gone(one, at), abs=0.02)
+        assert one.at(at).pitch == pytest.approx(gone(one, at) / (one.radius_m or np.inf), rel=0.02)
+
+
 @pytest.mark.parametrize("count", [2, 4])
 def test_a_queue_keeps_its_distances_round_a_corner(count):
     objects = [SceneObject("mobile robot", id="0", position_m=(0.0, 0.0),

@@ -1,9 +1,11 @@
 """Effects: functions of time with a constant number of shapes."""
 
+import itertools
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from tests.scenes.every_row import for_every
 from tests.scenes.staged import SIZE, stage, thing
 
 from texvent_scenes.models.effects import EFFECTS
@@ -12,7 +14,7 @@ from texvent_scenes.raycast.render import render
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.scene import Effect, SceneObject
 from texvent_scenes.staging.compose import ComposedScene
-from texvent_scenes.staging.particles.emitter import TINY_M, flight
+from texvent_scenes.staging.particles.emitter import GENERATIONS, TINY_M, Emitter, flight
 
 
 def staged(*effects, seed=0):
@@ -107,14 +109,41 @@ def test_flight_solves_its_equation_of_motion(drag_s):
     np.testing.assert_allclose(later[0], speed, atol=1e-4)
 
 
-@pytest.mark.parametrize("pace", [1.0, 0.4])
-@pytest.mark.parametrize("start_s", [0.0, 0.3])
-def test_slow_motion_of_particles_begins_with_them(start_s, pace):
-    (emitter,) = staged(Effect("sparks", "box")).particles.effects
-    shown, usual = (replace(emitter, start_s=start_s, pace=one) for one in (pace, 1.0))
-    for after_s in (0.05, 0.2, 0.5):
-        found, expected = shown.at(start_s + after_s), usual.at(start_s + pace * after_s)
-        np.testing.assert_allclose(found.to_world, expected.to_world, atol=1e-9)
+def look_of(emitter, time_s):
+    return np.concatenate([one["to_world"] if one.dtype.names else one for one in
+                           (emitter.at(time_s).to_world, emitter.media(time_s))])  # fmt: skip
+
+
+@for_every(EFFECTS)
+def test_particles_that_begin_later_or_go_slower_are_the_same_by_their_own_clock(kind):
+    for one, start_s in itertools.product(
+        staged(Effect(kind, "box")).particles.effects, (0.3, 2.7)
+    ):
+        first, late, slow = (
+            Emitter.of(replace(one.style, curl=0.0), one.source, one.setting,
+                       np.random.default_rng(2), start_s=start, pace=pace)
+            for start, pace in ((0.0, 1.0), (start_s, 1.0), (start_s, 0.4))
+        )  # fmt: skip
+        for after_s in (0.05, 0.2, 0.5):
+            shown = (look_of(late, start_s + 0.4 * after_s), look_of(slow, start_s + after_s))
+            np.testing.assert_allclose(*shown, atol=1e-9)
+            ages = (each.lives.at(at + after_s)[0] for each, at in ((first, 0.0), (late, start_s)))
+            assert not one.style.at_once or next(ages) == pytest.approx(next(ages))
+
+
+@pytest.mark.parametrize("kind", EFFECTS)
+def test_a_chip_that_lies_still_turns_no_more_and_is_another_one_in_its_next_life(kind):
+    for emitter in staged(Effect(kind, "box")).particles.effects:
+        first, later = (emitter.at(at).to_world for at in (0.9, 0.93))
+        lies = np.abs(later - first)[:, :, 3].max(axis=1, initial=0.0) < 1e-9
+        axes = [one[lies, :, :3] / np.linalg.norm(one[lies, :, :3], axis=1)[:, None]
+                for one in (first, later)]  # fmt: skip
+        np.testing.assert_allclose(*axes, atol=1e-6)
+        lives = [emitter.lives.at(0.1 + n * emitter.lives.life_s) for n in range(GENERATIONS + 1)]
+        drawn = np.array([draws[:, :3] for _, draws in lives])
+        np.testing.assert_allclose(drawn[-1], drawn[0])
+        assert (np.ptp(drawn[:-1], axis=0) > 0.3).all()
+        assert all((np.diff(drawn[:-1], axis=0) != 0.0).ravel())
 
 
 @pytest.mark.parametrize("pace", [0.5, 0.2])

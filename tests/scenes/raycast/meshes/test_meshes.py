@@ -17,7 +17,14 @@ from tests.scenes.raycast.meshes.mesh_scenes import (
 from texvent.errors import InputError
 from texvent.runtime.jit import jit
 from texvent.sensor import SensorSize
-from texvent_scenes.mesh import make_mesh, recoloured, smooth_normals, triangle_normals
+from texvent_scenes.mesh import (
+    make_mesh,
+    mean_colour,
+    recoloured,
+    smooth_normals,
+    surface_image,
+    triangle_normals,
+)
 from texvent_scenes.raycast.ground_truth import ground_truth
 from texvent_scenes.raycast.meshes.hit import hit_mesh
 from texvent_scenes.raycast.meshes.tree import join_labels, tree_of
@@ -202,3 +209,20 @@ def test_a_colour_keeps_what_is_brighter_by_luma(seed):
     luma = 0.2126 * colours[..., 0] + 0.7152 * colours[..., 1] + 0.0722 * colours[..., 2]  # BT.709
     expected = (luma / luma.mean())[..., None] * tint
     np.testing.assert_allclose(recoloured(mesh, tint).colours, expected, rtol=1e-5)
+
+
+@given(seed=st.integers(0, 2**31), half=st.tuples(*3 * [st.floats(0.05, 5.0)]))
+def test_the_mean_colour_of_a_mesh_is_that_over_its_area_in_the_file(seed, half):
+    rng = np.random.default_rng(seed)
+    vertices, triangles = (
+        rng.normal(size=(9, 3)) * half,
+        rng.permuted([range(9)] * 4, axis=1)[:, :3],
+    )
+    colours, image = rng.uniform(size=(4, 3, 3)), rng.integers(-1, 2, 4)
+    texels = rng.uniform(size=(2, 4, 4, 3))
+    means = np.vstack([texels.mean(axis=(1, 2)), np.ones(3)])[image]
+    mesh, _ = make_mesh(vertices, triangles, colours=colours.astype(np.float32), image=image,
+                        images=[surface_image(one) for one in texels])  # fmt: skip
+    areas = np.linalg.norm(triangle_normals(vertices, triangles), axis=1)
+    expected = areas @ (colours.mean(axis=1) * means) / areas.sum()
+    np.testing.assert_allclose(mean_colour(mesh), expected, rtol=1e-4)

@@ -179,8 +179,9 @@ def test_copies_leave_one_by_one_and_go_on_at_their_speed():
         assert 0.0 <= x[0] < 0.5
 
 
-TEXTS = ["a table tennis rally", "two women play badminton", "a woman plays badminton",
-         "a tennis match", "two men play ping pong"]  # fmt: skip
+TEXTS = ["two boys play table tennis", "two girls play badminton", "a table tennis rally",
+         "two women play badminton", "a woman plays badminton", "a tennis match",
+         "two men play ping pong"]  # fmt: skip
 
 
 def _cast(text):
@@ -199,11 +200,13 @@ def test_each_player_hits_the_ball_once_in_a_period(text):
     first, second = players
     assert court.noun.name in trait_values("rally")
     act = ACTIVITIES[first.track.at(0.0).activity]
+    low_m = 0.5 * ball.model.height + 0.76 * trait_values("rally")[court.noun.name]["bounces"]
     for player, at in ((first, act.contact_s), (second, act.contact_s + 0.5 * PERIOD_S)):
         for hit_s in (at, at + PERIOD_S):
             reach = [0.0, 0.0, act.reach_m * player.model.scale, 1.0]
             tip = player.anchor("right hand", hit_s) @ reach
-            np.testing.assert_allclose(ball.middle(hit_s), tip, atol=0.02)
+            tip[2] = max(tip[2], low_m + 0.1)  # a child reaches over a table
+            np.testing.assert_allclose(ball.middle(hit_s), tip, atol=0.03)
     assert abs(first.middle(0.0)[0] - second.middle(0.0)[0]) > court.model.length
 
 
