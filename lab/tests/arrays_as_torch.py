@@ -94,7 +94,7 @@ for _name in ("mean", "sum", "all", "any", "argmax"):
     setattr(Tensor, _name, _along(_name))
 for _name, _function in {
     "abs": np.abs, "isnan": np.isnan, "isfinite": np.isfinite,
-    "float": np.float32, "double": np.float64, "long": np.int64,
+    "float": np.float32, "double": np.float64, "long": np.int64, "int": np.int32,
     "clone": np.array, "cpu": np.asarray, "numel": np.size, "is_complex": np.iscomplexobj,
     "nan_to_num": lambda one, nan: np.nan_to_num(one, nan=nan), "movedim": np.moveaxis,
     "clamp": lambda one, min=None, max=None: np.clip(one, min, max), "contiguous": np.asarray,
@@ -265,16 +265,19 @@ def modules():
     nn.__getattr__ = _layer
     data = _module(
         "torch.utils.data", Dataset=object, IterableDataset=object, DataLoader=load_batches,
-        default_collate=lambda values: tensor(np.stack(values)),
+        default_collate=lambda values: tensor(np.stack(values)), get_worker_info=lambda: None,
     )  # fmt: skip
-    stated = {name: np.dtype(name) for name in ("uint8", "int64", "float32", "float64", "bool")}
+    stated = {name: np.dtype(name) for name in ("uint8", "int8", "int64", "float32", "bool")}
     torch = _module(
         "torch", Tensor=Tensor, nn=nn, tensor=tensor, as_tensor=tensor, from_numpy=tensor,
         strided="strided", bfloat16="bfloat16", __version__="arrays", save=save, load=load,
-        optim=SimpleNamespace(Adam=Optimizer, AdamW=Optimizer), device=lambda name: CPU,
+        optim=SimpleNamespace(
+            Adam=type("Adam", (Optimizer,), {}), AdamW=type("AdamW", (Optimizer,), {})
+        ), device=lambda name: CPU,
         cuda=SimpleNamespace(is_available=lambda: False), autocast=without, no_grad=without,
         inference_mode=without, manual_seed=lambda seed: None, set_num_threads=lambda count: None,
         random=SimpleNamespace(fork_rng=without),
+        distributed=SimpleNamespace(is_available=lambda: False),
         serialization=SimpleNamespace(safe_globals=without),
         arange=lambda count, device=None: tensor(np.arange(count)),
         zeros=lambda *shape, dtype=np.float32, device=None: tensor(np.zeros(shape, dtype)),

@@ -3,6 +3,7 @@
 import dataclasses
 import re
 import sys
+import typing
 from fractions import Fraction
 from types import SimpleNamespace
 
@@ -82,6 +83,20 @@ def test_options_of_a_pixel_model_are_those_of_its_dataclass(simulator):
     graph = {"model": comfy.defaults(cls)}
     (options,) = comfy.run(graph, ALL)["model"]["result"]
     assert options == {"simulator": simulator, "preset": next(iter(presets))}
+
+
+@pytest.mark.parametrize("simulator", SIMULATORS.builtin)
+def test_optional_numbers_are_read_as_they_are_written(simulator):
+    config = next(iter(SIMULATORS.load(simulator).presets.values()))
+    widgets = comfy.part("widgets")
+    hints = typing.get_type_hints(type(config))
+    for name in (one for one in hints if hints[one] in (float | None, int | None)):
+        for text, value in (("3", 3), ("0.75", 0.75), ("", getattr(config, name))):
+            try:
+                found = getattr(widgets.with_values(config, {name: text}, where="node"), name)
+            except TexventError as error:  # out of range, or no whole number
+                found = value if f"{name} is {value}" in str(error) else str(error)
+            assert found == value
 
 
 def test_images_become_the_events_of_texvent(output):
@@ -172,6 +187,14 @@ def test_images_of_events_have_the_colours_of_the_palette():
     assert images[0, 0].tolist() == [[0, 0, 255], [255, 0, 0], [255, 255, 255]]
     assert images[1, 1, 2].tolist() == [0, 0, 255]
     assert len(draw(events, fps=50.0, window_ms=0.0, palette="v2e", max_images=1)) == 1
+    for window_ms in (0.5, 1.5, 30.0):  # what begins every 20 ms and lasts as long as is asked for
+        images = draw(events, fps=50.0, window_ms=window_ms, palette="paper", max_images=9)
+        for number, image in enumerate(images):
+            inside = (events.t >= 20_000 * number) & (events.t - 20_000 * number < 1000 * window_ms)
+            drawn = np.argwhere((image < 255).any(axis=-1))
+            assert {(x, y) for y, x in drawn.tolist()} == {
+                *zip(events.x[inside].tolist(), events.y[inside].tolist(), strict=True)
+            }
     empty = texvent.EventStream.empty((3, 2))
     assert (draw(empty, fps=50.0, window_ms=1.0, palette="paper", max_images=9) == 255).all()
 

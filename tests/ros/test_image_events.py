@@ -32,14 +32,19 @@ def make(**options) -> tuple[ImageEvents, list[str]]:
 
 
 def decode(packets) -> dict:
-    """The events of messages, each with the ROS time that its time base gives it, ns."""
+    """The events of successive messages, each with its ROS time by the time base, ns.
+
+    Headers are stamped with the first of them.
+    """
     decoder = Evt3Codec().make_decoder()
     found = {name: [] for name in ("x", "y", "p", "ns")}
     for packet in packets:
         columns = decoder.decode(packet.payload)
         for name in "xyp":
             found[name] += columns[name].tolist()
-        found["ns"] += [(packet.time_base_ns + 1000 * int(t)) % 2**64 for t in columns["t"]]
+        times = [(packet.time_base_ns + 1000 * int(t)) % 2**64 for t in columns["t"]]
+        assert packet.stamp_ns == times[0]
+        found["ns"] += times
     return found
 
 
@@ -51,11 +56,11 @@ def expected(first_ns: int, times=TIMES, frames=FRAMES) -> dict:
 
 def test_messages_span_no_more_than_the_packet_length_and_are_stamped_with_their_first_event():
     logic, _ = make(packet_ms=5.0)
-    packets = [
-        packet
-        for i, pixels in enumerate(FRAMES)
-        for packet in logic.take(image(pixels, i * STEP_NS), 0).packets
-    ]
+    packets = []
+    for i, pixels in enumerate(FRAMES):
+        answer = logic.take(image(pixels, i * STEP_NS, frame_id=f"camera {i}"), 0)
+        assert {one.frame for one in answer.packets} | {answer.frame_id} == {f"camera {i}"}
+        packets += answer.packets
     assert len(packets) > 15
     for packet in packets:
         times = Evt3Codec().make_decoder().decode(packet.payload)["t"]
@@ -200,3 +205,15 @@ def test_time_base_and_words_give_ros_time_whatever_the_recordings(recordings, p
         packets += maker.messages(events, times[-1] + 1, "f")
         ns += [first_ns + 1000 * t for t in times]
     assert decode(packets)["ns"] == ns
+
+
+@pytest.mark.parametrize("gap_us", [16_000_000, 17_000_000, 40_000_000])
+def test_words_go_on_counting_the_turns_of_their_clock(gap_us):
+    maker, times = PacketMaker(10_000), [5 + gap_us * n for n in range(5)]
+    maker.start(START_NS)
+    zeros = np.zeros(5, int)
+    events = EventStream.from_columns(zeros, zeros, times, zeros, size=SIZE)
+    packets = maker.messages(events, times[-1] + 1, "f")
+    assert decode(packets)["ns"] == [START_NS + 1000 * t for t in times]
+    lengths = [len(one.payload) for one in packets[1:]]
+    assert max(lengths) - min(lengths) <= 4 * (1 + gap_us // 2**24)  # turns since the last alone

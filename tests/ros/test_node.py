@@ -2,10 +2,12 @@
 
 import re
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from tests.ros.rclpy_interface import ExternalShutdownException, Policy, World, image
+from texvent_ros import node
 from texvent_ros.node import main
 
 import texvent
@@ -90,6 +92,30 @@ def test_a_prompt_is_published_on_the_clock_of_ros(world):
     assert len(truth)
     assert (events_of(world.published["events"]) == as_rows(truth, world.now_ns // 1000)).all()
     assert world.published["events_image"]
+
+
+@pytest.mark.parametrize("rate", [0.5, 4.0])
+def test_a_prompt_is_published_at_its_rate_and_every_event_is_shown_once(world, monkeypatch, rate):
+    clock, published, shown = SimpleNamespace(ns=0), [], []
+
+    def sleep(seconds):
+        clock.ns += round(seconds * 1e9)
+
+    def publish(own, packets):
+        published.append((clock.ns, packets[-1]))
+
+    monkeypatch.setattr(node, "time", SimpleNamespace(monotonic_ns=lambda: clock.ns, sleep=sleep))
+    monkeypatch.setattr(node.Publishers, "publish", publish)
+    monkeypatch.setattr(node.Publishers, "show", lambda own, events, *_: shown.append(events))
+    options = {"duration": 0.3, "sensor": "32x24", "seed": 4, "fps": 20}
+    assert run(prompt="a red ball bounces", rate=rate, **options) == 0
+    truth = texvent.generate("a red ball bounces", progress=False, **options)
+    assert len(published) > 3
+    assert published[-1][0] == pytest.approx(int(truth.t[-1]) * 1000 / rate, rel=0.01)
+    for now_ns, packet in published:
+        assert packet.stamp_ns - world.now_ns <= now_ns * rate + 1000
+    assert len(shown) > 1
+    assert texvent.EventStream.concat(shown).equals(truth)
 
 
 @pytest.fixture

@@ -17,16 +17,6 @@ from texvent_lab.bench.reconstruction.factors import FactorScore, factors_table
 
 from ..train.windowed_specification import TEXT
 
-pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
-from texvent_lab.measure.reconstruction_factors import (
-    Scale,
-    changed,
-    main,
-    trainings,
-)
-from texvent_lab.train.reconstruction.streamed import StreamedExamples
-
-pytestmark = pytest.mark.torch
 TRAINING = """\
 network = {name = "firenet"}
 loss = {lpips = 0.0, l1 = 1.0}
@@ -58,6 +48,13 @@ variant = "esim"
 """
 
 
+@pytest.fixture(scope="module")
+def made(torch):
+    from texvent_lab.measure import reconstruction_factors
+
+    return reconstruction_factors
+
+
 @pytest.fixture
 def folder(tmp_path):
     for name, text in {"tiny": TEXT, "training": TRAINING, "factors": FACTORS}.items():
@@ -65,17 +62,17 @@ def folder(tmp_path):
     return tmp_path
 
 
-def test_options_of_the_variant_are_replaced(folder):
+def test_options_of_the_variant_are_replaced(made, folder):
     spec = read_specification(folder / "tiny.toml")
-    found = changed(spec, "paper", {"options": {"noise": "none"}}, folder / "list.jsonl")
+    found = made.changed(spec, "paper", {"options": {"noise": "none"}}, folder / "list.jsonl")
     (variant,) = found.variants
     assert dict(variant.options) == {"contrast_threshold": 0.2, "noise": "none"}
     assert found.sources == spec.sources
 
 
-def test_fewer_scenes_give_as_many_clips_and_the_same_validation(folder):
+def test_fewer_scenes_give_as_many_clips_and_the_same_validation(made, folder):
     spec = read_specification(folder / "tiny.toml")
-    fewer = changed(spec, "paper", {"scenes": 1}, folder / "list.jsonl")
+    fewer = made.changed(spec, "paper", {"scenes": 1}, folder / "list.jsonl")
     before, after = (Recipe.of(one).clips for one in (spec, fewer))
     assert before.counts == after.counts == {"train": 2, "validation": 2}
     repeated = [after.clip("train", number).item for number in range(2)]
@@ -87,12 +84,12 @@ def test_fewer_scenes_give_as_many_clips_and_the_same_validation(folder):
     assert told[0] == told[1]
 
 
-def test_fewer_clips_are_learned_and_as_many_validate(folder):
+def test_fewer_clips_are_learned_and_as_many_validate(made, folder):
     spec = read_specification(folder / "tiny.toml")
-    clips = Recipe.of(changed(spec, "paper", {}, folder / "list.jsonl", 1)).clips
+    clips = Recipe.of(made.changed(spec, "paper", {}, folder / "list.jsonl", 1)).clips
     assert clips.counts == {"train": 1, "validation": 2}
     with pytest.raises(ConfigError, match="clips"):
-        Scale(clips=0)
+        made.Scale(clips=0)
 
 
 @pytest.mark.parametrize(
@@ -102,19 +99,19 @@ def test_fewer_clips_are_learned_and_as_many_validate(folder):
         ({"variant": "rvt"}, "unknown variant 'rvt'"),
     ],
 )
-def test_what_cannot_be_changed_is_refused(folder, changes, message):
+def test_what_cannot_be_changed_is_refused(made, folder, changes, message):
     spec = read_specification(folder / "tiny.toml")
     with pytest.raises(ConfigError, match=message):
-        changed(spec, changes.get("variant", "paper"), changes, folder / "list.jsonl")
+        made.changed(spec, changes.get("variant", "paper"), changes, folder / "list.jsonl")
 
 
-def test_each_factor_has_a_training_of_its_own(folder):
-    found = trainings(folder / "factors.toml", folder / "work", None)
+def test_each_factor_has_a_training_of_its_own(made, folder):
+    found = made.trainings(folder / "factors.toml", folder / "work", None)
     assert list(found) == ["as it is", "threshold .4", "frame times", "streamed", "esim"]
     kept = [config.data.specification for config in found.values()]
     assert len(set(kept)) == len(kept)
     for some in (["streamed"], ["esim", "frame times"]):  # each as among all
-        chosen = trainings(folder / "factors.toml", folder / "work", some)
+        chosen = made.trainings(folder / "factors.toml", folder / "work", some)
         assert chosen == {name: found[name] for name in some}
     slow = read_specification(found["frame times"].data.specification)
     assert slow.options["fps"] == 40
@@ -122,13 +119,13 @@ def test_each_factor_has_a_training_of_its_own(folder):
     written = read_specification(found["threshold .4"].data.specification)
     assert written.variants[0].options == {"contrast_threshold": 0.4}
     with pytest.raises(ConfigError, match="unknown factor 'noise'"):
-        trainings(folder / "factors.toml", folder / "work", ["noise"])
+        made.trainings(folder / "factors.toml", folder / "work", ["noise"])
     (folder / "factors.toml").write_text(FACTORS.replace('"v2v"', '"v3v"'))
     with pytest.raises(ConfigError, match=r"streamed: stream is 'v3v'; .* did you mean 'v2v'"):
-        trainings(folder / "factors.toml", folder / "work", ["as it is"])
+        made.trainings(folder / "factors.toml", folder / "work", ["as it is"])
 
 
-def test_films_count_from_the_folder_of_their_specification(folder, monkeypatch):
+def test_films_count_from_the_folder_of_their_specification(made, folder, monkeypatch):
     before, _, after = TEXT.partition("[[sources]]")
     videos = '[[sources]]\nvideos = ["one.mp4", "two.mp4"]\n'
     (folder / "films.toml").write_text(before + videos + after[after.index("[variants") :])
@@ -137,13 +134,15 @@ def test_films_count_from_the_folder_of_their_specification(folder, monkeypatch)
     for name in ("one", "two"):
         (folder / f"{name}.mp4").touch()
     monkeypatch.chdir(folder)
-    config = trainings(Path("films-factors.toml"), folder / "elsewhere/work", None)["films"]
+    config = made.trainings(Path("films-factors.toml"), folder / "elsewhere/work", None)["films"]
     (source,) = read_specification(config.data.specification).sources
     assert source.videos == (str(folder / "one.mp4"), str(folder / "two.mp4"))
 
 
-def test_a_streamed_example_is_a_run_of_its_clip_that_chance_alone_decides(folder):
-    config = trainings(folder / "factors.toml", folder / "work", ["streamed"])["streamed"]
+def test_a_streamed_example_is_a_run_of_its_clip_that_chance_alone_decides(made, folder):
+    from texvent_lab.train.reconstruction.streamed import StreamedExamples
+
+    config = made.trainings(folder / "factors.toml", folder / "work", ["streamed"])["streamed"]
     examples = StreamedExamples(config, "v2v")
     assert len(examples.prompts) == 2
     clip = examples.clip(1)
@@ -162,21 +161,23 @@ def test_a_streamed_example_is_a_run_of_its_clip_that_chance_alone_decides(folde
     assert any(all(found[k][n + 2 * k] for k in range(4)) for n in starts)  # grids of 20 ms
 
 
-def test_every_factor_of_the_repository_can_be_made(tmp_path):
+def test_every_factor_of_the_repository_can_be_made(made, tmp_path):
     configs = Path(__file__).parents[3] / "configs/training"
     factors = read_configuration(configs / "reconstruction-factors.toml")["factors"]
     names = [name for name, one in factors.items() if "specification" not in one]  # of own films
-    found = trainings(configs / "reconstruction-factors.toml", tmp_path, names, Scale(clips=12))
+    found = made.trainings(
+        configs / "reconstruction-factors.toml", tmp_path, names, made.Scale(clips=12)
+    )
     assert len(found) == len(names) > 5
     for config in found.values():
         clips = Recipe.of(read_specification(config.data.specification)).clips
         assert clips.counts == {"train": 12, "validation": 2}
 
 
-def test_the_command_names_what_will_not_do(folder, monkeypatch, capsys):
+def test_the_command_names_what_will_not_do(made, folder, monkeypatch, capsys):
     words = [str(folder / "factors.toml"), str(folder / "none"), "--work", str(folder / "work")]
     monkeypatch.setattr(sys, "argv", ["reconstruction_factors", *words])
-    assert main() == 2
+    assert made.main() == 2
     assert "there is no recording" in capsys.readouterr().err
 
 
@@ -194,21 +195,23 @@ def write_recording(folder):
     (folder / "events.txt").write_text("\n".join(events))
 
 
+@pytest.mark.torch
 def test_the_command_trains_and_scores_every_factor_and_repeats_what_is_kept(
-    folder, monkeypatch, capsys
+    made, folder, monkeypatch, capsys
 ):
+    pytest.importorskip("torch.nn.init")
     write_recording(folder / "bar")
     monkeypatch.setenv("TEXVENT_CACHE", str(folder / "texvent-cache"))  # without LPIPS' weights
     words = [str(folder / "factors.toml"), str(folder / "bar"), "--work", str(folder / "work")]
     words += ["--seeds", "1", "-o", str(folder / "a.json"), "--names", "as it is,streamed"]
     words += ["--clips", "1", "--epochs", "1"]
     monkeypatch.setattr(sys, "argv", ["reconstruction_factors", *words])
-    assert main() == 0
+    assert made.main() == 0
     rows = read_document(folder / "a.json")["rows"]
     assert [one["factor"] for one in rows] == ["as it is", "streamed"]
     assert {len(values) for one in rows for values in one["scores"].values()} == {1}
     monkeypatch.setattr(sys, "argv", [*sys.argv, "--overwrite"])
-    assert main() == 0
+    assert made.main() == 0
     assert read_document(folder / "a.json")["rows"] == rows
     assert "| streamed |" in capsys.readouterr().out
     document = read_document(folder / "a.json")
@@ -218,7 +221,9 @@ def test_the_command_trains_and_scores_every_factor_and_repeats_what_is_kept(
     assert pages["reconstruction-factors.svg"].startswith(b"<?xml")
 
 
-def test_a_published_network_is_scored_as_a_trained_one(folder, monkeypatch, capsys):
+@pytest.mark.torch
+def test_a_published_network_is_scored_as_a_trained_one(made, folder, monkeypatch, capsys):
+    pytest.importorskip("torch.nn.init")
     write_recording(folder / "bar")
     monkeypatch.setenv("TEXVENT_CACHE", str(folder / "texvent-cache"))
     words = [str(folder / "factors.toml"), str(folder / "bar"), "--work", str(folder / "work")]
@@ -226,16 +231,16 @@ def test_a_published_network_is_scored_as_a_trained_one(folder, monkeypatch, cap
     monkeypatch.setattr(
         sys, "argv", ["reconstruction_factors", *words, "-o", str(folder / "a.json")]
     )
-    assert main() == 2  # there are no weights, which is known before any training
+    assert made.main() == 2  # there are no weights, which is known before any training
     assert "firenet.pth" in capsys.readouterr().err
     assert not (folder / "work").exists()
     monkeypatch.setattr(sys, "argv", [one for one in sys.argv if one not in words[-2:]])
-    assert main() == 0
+    assert made.main() == 0
     weights = folder / "texvent-cache/weights/firenet.pth"
     weights.parent.mkdir(parents=True, exist_ok=True)
     weights.write_bytes((folder / "work/factor-0-0/weights.pt").read_bytes())
     monkeypatch.setattr(sys, "argv", [*sys.argv, "--published", "firenet", "--overwrite"])
-    assert main() == 0
+    assert made.main() == 0
     trained, published = read_document(folder / "a.json")["rows"]
     assert published == {"factor": "firenet, as published", "scores": trained["scores"]}
 

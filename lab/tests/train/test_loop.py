@@ -13,7 +13,7 @@ torch = pytest.importorskip("torch", reason="make test-torch runs the tests that
 
 from texvent_lab.train.classification.config import ClassificationConfig  # noqa: E402
 from texvent_lab.train.run import train_from_file  # noqa: E402
-from texvent_lab.train.schedule import Hardware, Schedule  # noqa: E402
+from texvent_lab.train.schedule import Hardware  # noqa: E402
 from texvent_lab.train.task import Batches  # noqa: E402
 
 from .written_samples import write_bars_training  # noqa: E402
@@ -54,19 +54,6 @@ def test_workers_change_nothing_and_another_seed_does(specification, tmp_path):
     one, two, three = (weights(tmp_path / name) for name in ("one", "two", "three"))
     assert all(torch.equal(one[name], two[name]) for name in one)
     assert not torch.equal(one["conv0.weight"], three["conv0.weight"])
-
-
-def test_options_of_the_schedule_reach_the_optimiser(specification, tmp_path):
-    optimizer = Schedule(
-        optimizer="adamw", learning_rate=0.1, weight_decay=0.2, amsgrad=True
-    ).make_optimizer(torch.nn.Linear(1, 1))
-    assert isinstance(optimizer, torch.optim.AdamW)
-    expected = {"lr": 0.1, "weight_decay": 0.2, "amsgrad": True}
-    assert optimizer.param_groups[0].items() >= expected.items()
-    specification.write_text(specification.read_text() + "clip_gradient = 1e-6\n")
-    state = train_from_file(ClassificationConfig, specification, tmp_path / "run", CPU)
-    moments = [one["exp_avg_sq"].sum() for one in state.optimizer["state"].values()]
-    assert 0 < sum(moments) < 1e-12
 
 
 def test_another_training_is_not_continued(specification, tmp_path, capsys):

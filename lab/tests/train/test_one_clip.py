@@ -3,14 +3,17 @@
 import numpy as np
 import pytest
 
-pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
-from texvent_lab.train.one_clip import streamed_events
-
-pytestmark = pytest.mark.torch
 STEP_US = 20_000
 
 
-def test_a_step_has_the_events_of_its_contrast_at_the_times_of_the_clip():
+@pytest.fixture
+def streamed_events(torch):
+    from texvent_lab.train.one_clip import streamed_events
+
+    return streamed_events
+
+
+def test_a_step_has_the_events_of_its_contrast_at_the_times_of_the_clip(streamed_events):
     frames = np.full((3, 6, 8), 100, np.uint8)
     frames[2, 2:4, 5] = 200
     times_us = 7_000 + STEP_US * np.arange(3)
@@ -24,7 +27,7 @@ def test_a_step_has_the_events_of_its_contrast_at_the_times_of_the_clip():
     assert (np.diff(found.t) >= 0).all()
 
 
-def test_pixels_are_drawn_and_the_clip_is_neither_flipped_nor_paused():
+def test_pixels_are_drawn_and_the_clip_is_neither_flipped_nor_paused(streamed_events):
     ramp = np.linspace(20, 240, 9).astype(np.uint8)
     frames = np.zeros((9, 6, 8), np.uint8) + 20
     frames[:, :, :2] = ramp[:, None, None]  # the left alone brightens, without a rest

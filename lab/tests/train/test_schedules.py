@@ -182,6 +182,17 @@ def test_a_training_that_is_stopped_anywhere_ends_as_one_that_was_not(
     assert found[2] == expected[2]
 
 
+@pytest.mark.parametrize("kind", ["adam", "adamw"])
+def test_options_of_the_schedule_reach_the_optimiser(torch, kind):
+    options = {"weight_decay": 0.2, "amsgrad": True}
+    network = Task(torch).make_network()
+    made = Schedule(optimizer=kind, learning_rate=0.1, **options).make_optimizer(network)
+    assert type(made).__name__.lower() == kind
+    (group,) = made.param_groups
+    assert group.items() >= {"lr": 0.1, **options}.items()
+    assert [one is network.weight for one in group["params"]] == [True]
+
+
 class Even(Task):
     """Losses of 1 with a gradient of 1; the gradient of the step before is noted."""
 

@@ -205,6 +205,8 @@ def _play_once(
         if t_us - shown_us >= VIEW_US:
             publishers.show(EventStream.concat(shown), start_ns + t_us * NS, config.frame_id)
             shown, shown_us = shown[:1], t_us
+    if len(shown) > 1:
+        publishers.show(EventStream.concat(shown), start_ns + t_us * NS, config.frame_id)
     return t_us
 
 

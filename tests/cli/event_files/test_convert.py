@@ -10,8 +10,11 @@ import pytest
 from tests.cli.running import refused, run
 
 import texvent
+from texvent.cli.event_files import compare
 from texvent.events import EventStream
 from texvent.io.files import load, save
+from texvent.metrics.compare import load_metric
+from texvent.metrics.controls import run_controls
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(346, 260)
@@ -54,6 +57,32 @@ def test_edits_of_one_command_are_made_in_the_order_of_its_help(recording):
         assert run("convert", source, f"{number}.h5", "-q", word) == 0
     assert len(load("all.h5")) > 100
     assert load("all.h5").equals(load(f"{len(given) - 1}.h5"))
+
+
+def test_each_file_is_compared_with_the_last_one_whose_controls_are_shown(
+    recording, monkeypatch, capsys
+):
+    monkeypatch.setattr(compare, "CONTROLLED", ("count_ratio",))
+    few = load("in.h5")[:3000]
+    parts = {"one.h5": few[::2], "two.h5": few[1::3], "three.h5": few[::5]}
+    for name, events in (*parts.items(), ("true.h5", few)):
+        save(name, events)
+    words = ("--metrics", "count_ratio,stpp", "--json")
+    every = few.t[0] / 1e6, few.t[-1] / 1e6
+    for span in (every, (every[0], sum(every) / 2)):
+        time = ("--time", f"{span[0]:.6f},{span[1] + 1e-6:.6f}")
+        capsys.readouterr()
+        assert run("compare", *parts, "true.h5", *words, *time) == 0
+        told = json.loads(capsys.readouterr().out)
+        cut = {name: one.cut(round(span[0] * 1e6), round(span[1] * 1e6) + 1)
+               for name, one in {**parts, "true.h5": few}.items()}  # fmt: skip
+        assert told["reference"] == {"path": "true.h5", "events": len(cut["true.h5"])}
+        for one, name in zip(told["candidates"], parts, strict=True):
+            assert one["predicted"] == {"path": name, "events": len(cut[name])}
+            expected = texvent.compare(cut[name], cut["true.h5"], ["count_ratio", "stpp"])
+            assert one["scores"] == pytest.approx(expected)
+        controls = run_controls(load_metric("count_ratio"), cut["true.h5"])
+        assert told["controls"] == {"count_ratio": pytest.approx(controls)}
 
 
 def test_a_file_is_not_merged_with_itself(recording, capsys):

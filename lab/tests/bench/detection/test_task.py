@@ -180,6 +180,57 @@ def test_every_box_is_of_one_size_and_the_others_are_ignored_there(task):
     assert (boxes["class_confidence"] == COUNTED).all()
 
 
+@pytest.fixture
+def tested(task, tmp_path, monkeypatch):
+    """The module that tests networks, on clips of five lengths; no street is pulled."""
+    from texvent_lab.bench.detection import run
+
+    clips = [boxed_clip(seed, windows)[0] for seed, windows in enumerate((3, 1, 4, 2, 2))]
+    for split, count in (("train", 3), ("val", 1), ("test", 5)):
+        for number in range(count):
+            (tmp_path / split / str(number)).mkdir(parents=True)
+    monkeypatch.setattr(run, "read_clips", lambda folder, split, binning: clips)
+    monkeypatch.setattr(run, "find_pulled", lambda name: None)
+    return run, clips
+
+
+@pytest.mark.parametrize("binning", [1, 4])
+def test_a_network_is_scored_in_pixels_on_the_clips_that_it_did_not_learn(
+    torch, tested, binning, tmp_path
+):
+    run, clips = tested
+    config = DetectionConfig(seed=6, data=DetectionData(folder=tmp_path, binning=binning))
+    score = run.score_network(Squares(torch), config, torch.device("cpu"), "esim")
+    assert (score.arm, score.seed, score.street) == ("esim", 6, None)
+    assert score.clips == {"train": 3, "val": 1, "test": 5}
+    assert score.events == np.median([one.counts.astype(int).sum() for one in clips])
+    counted = [box for one in clips for boxes in one.boxes for box in boxes
+               if box["class_confidence"] == COUNTED]  # fmt: skip
+    assert score.boxes == len(counted)
+    assert score.ap50["all"]["value"] == 1
+    sides = {name: [low <= binning**2 * one["w"] * one["h"] < high for one in counted]
+             for name, (low, high) in run.SIZES.items()}  # fmt: skip
+    assert {name for name, value in score.ap50_by_size.items() if not np.isnan(value)} == {
+        name for name, found in sides.items() if any(found)
+    }
+
+
+def test_a_kept_score_is_of_its_training_epochs_clips_and_street(tested, tmp_path, monkeypatch):
+    run, _ = tested
+    state = SimpleNamespace(version="1", tables={"seed": 1}, epochs=3)
+    rows = {"a": {"of": "x"}, "b": {"of": "y"}}
+    ledger = lambda path, remedy: type("L", (dict,), {"row": dict.__getitem__})(rows)  # noqa: E731
+    monkeypatch.setattr(run, "Ledger", ledger)
+    seen = [run._facts_of_score(state, tmp_path)] * 2
+    for change in ({"version": "2"}, {"tables": {"seed": 2}}, {"epochs": 4}):
+        seen.append(run._facts_of_score(SimpleNamespace(**{**vars(state), **change}), tmp_path))
+    rows["b"] = {"of": "z"}
+    seen.append(run._facts_of_score(state, tmp_path))
+    monkeypatch.setattr(run, "find_pulled", lambda name: tmp_path)
+    seen.append(run._facts_of_score(state, tmp_path))
+    assert [seen.index(one) for one in seen] == [0, 0, 2, 3, 4, 5, 6]
+
+
 @pytest.mark.parametrize("binning", [1, 2])
 def test_a_street_is_seen_in_the_windows_before_each_of_its_instants(
     torch, task, binning, tmp_path, monkeypatch
@@ -189,13 +240,15 @@ def test_a_street_is_seen_in_the_windows_before_each_of_its_instants(
     rng, truth = np.random.default_rng(4), read_street_labels()
     times_us = np.unique(truth["t"])
     last_us = int(times_us[-1])
+    instants = [int(times_us[0]), int(times_us[5]), last_us]
     t = np.sort(rng.integers(times_us[0] - 120_000, last_us, 4000))
+    t[1:4] = instants[0] - np.array([2, 1, 0]) * WINDOW_US  # at the ends of windows
+    t.sort()
     events = EventStream(rng.integers(0, 346, 4000), rng.integers(0, 260, 4000), t,
                          rng.integers(0, 2, 4000), (346, 260))  # fmt: skip
     events.save(tmp_path / "street.h5")
     seen = []
     monkeypatch.setattr(run, "detect_last", lambda network, windows, device: seen.append(windows))
-    instants = [int(times_us[0]), int(times_us[5]), last_us]
     found = [*run._detect_street(None, tmp_path / "street.h5", np.array(instants), None, binning)]
     assert [len(one) for one in found] == [0, 0, 0]
     assert [len(one) for one in seen] == [2, (instants[1] - t[0]) // WINDOW_US, 10]

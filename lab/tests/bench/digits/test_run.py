@@ -163,9 +163,10 @@ def test_the_page_shows_what_the_document_holds(report, tmp_path):
     assert "| esim | true frames |" in digits_table(report)
 
 
-@pytest.mark.torch
-def test_an_arm_may_draw_as_the_training_stream_does(data, tmp_path):
-    pytest.importorskip("torch")
+def test_an_arm_may_draw_as_the_training_stream_does(torch, data, tmp_path, monkeypatch):
+    monkeypatch.setattr(digits, "train_network", lambda images, labels, **options:
+                        Nearest.train(images, labels, seed=0, **OPTIONS))  # fmt: skip
+    monkeypatch.setattr(digits, "predict", Nearest.predict)
     plan = dataclasses.replace(
         tiny_plan(data, tmp_path), arms=("recommended", MATCHED), digits=20, seeds=1, folds=2
     )

@@ -3,6 +3,7 @@
 import dataclasses
 import json
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from hypothesis import strategies as st
 from texvent.errors import ConfigError
 from texvent.metrics.compare import compare
 from texvent.pipeline import video_to_events
+from texvent.run.rate_search import ThresholdMatch
 from texvent.settings.resolution import resolve
 from texvent.simulation.physical.threshold_map import read_threshold_map
 from texvent_lab.bench.fidelity.comparison import Comparison
@@ -183,6 +185,20 @@ def test_a_scene_without_true_events_has_undefined_ratios_not_numbers(tmp_path, 
     assert "texvent[rife]" in reason or "weights" in reason
 
 
+@pytest.mark.parametrize("ratio", [None, 0.5, 1.01])
+def test_a_score_says_whether_its_threshold_gave_the_count(monkeypatch, ratio):
+    match = ThresholdMatch(0.3, ratio, 4) if ratio else None
+    entry, asked = Entry(simulator="esim", interpolate="none"), []
+    monkeypatch.setattr(Entry, "fit", lambda own, count, target: (match, 0.75))
+    truth = SimpleNamespace(
+        scene="s", target="t", references=[], fit_count=5,
+        simulate=lambda entry, threshold: asked.append(threshold) or [],
+    )  # fmt: skip
+    score = score_entry(truth, entry, ("stpp",))
+    assert (score.threshold, score.is_matched) == (match and 0.3, ratio == 1.01)
+    assert (asked, score.default_ratio, score.entry) == ([score.threshold], 0.75, entry.name)
+
+
 def six_textures(**entries):
     """A report of one scene with six textures: entry → STPP on each."""
     report = synthetic_report()
@@ -202,12 +218,12 @@ def six_textures(**entries):
 
 STEADY = [0.60, 0.61, 0.62, 0.63, 0.64, 0.65]
 TRACKS = {
+    "lost": ([math.nan] * 6, {}),
     "steady": (STEADY, {}),
     "twin": ([0.61, 0.60, 0.63, 0.62, 0.64, 0.64], {}),
     "behind": ([one - 0.1 for one in STEADY], {}),
     "true frames": ([0.8] * 6, {"track": "true frames"}),
     "half": ([0.7] * 6, {"track": "recorded"}),
-    "lost": ([math.nan] * 6, {}),
 }
 
 

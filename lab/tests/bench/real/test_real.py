@@ -1,6 +1,7 @@
 """Recordings of real sensors in the benchmark, on a small one made here in the usual layouts."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -16,6 +17,7 @@ from texvent_lab.bench.fidelity.entries import ConfigEntry, Entry
 from texvent_lab.bench.fidelity.results import read_report
 from texvent_lab.bench.fidelity.table import fidelity_tables
 from texvent_lab.bench.page import page_files
+from texvent_lab.bench.real import run
 from texvent_lab.bench.real.recording import RecordingPart, adapt_settings, open_scene
 from texvent_lab.bench.real.run import HALVES, real_entries, run_real
 from texvent_lab.commands.bench import real
@@ -71,6 +73,18 @@ def test_motion_compensation_comes_closest_and_the_bounds_bound_it(report):
     assert np.mean(reference.null["stpp"]) < flow.summary("stpp").mean < 1
     assert flow.values["count_ratio"] == pytest.approx([1] * 4, abs=0.15)
     assert "motion vectors" in report.skipped["esim, motion"]
+
+
+def test_times_are_shuffled_over_all_scored_spans_at_once(pan_folder, monkeypatch):
+    scene = open_scene(str(pan_folder), RecordingPart(offset_us=5_000))
+    found, span_us = {}, scene.scored[0].stop_us - scene.scored[0].start_us
+    monkeypatch.setattr(run, "perturb", lambda events, name: replace(events, t=events.t + span_us))
+    monkeypatch.setattr(run, "measure_bounds", lambda *words: found.update(words=words))
+    run._bounds(scene, METRICS)
+    _, floors, nulls, _ = found["words"]
+    assert floors == scene.references
+    for null, before in zip(nulls[1:], scene.references, strict=False):
+        assert null.t.tolist() == (before.t + span_us).tolist()
 
 
 @pytest.mark.long
