@@ -10,19 +10,22 @@ from tests.examples import one_of
 Row = TypeVar("Row")
 
 
-def for_every(rows: Iterable[Row]) -> Callable[[Callable[[Row], None]], Callable[[], None]]:
+def for_every(
+    rows: Iterable[Row] | Callable[[], Iterable[Row]],
+) -> Callable[[Callable[[Row], None]], Callable[[], None]]:
     """Make one test of a check of one row; it names the rows that fail, and says why.
 
     A brief run checks one row of a few, and few of a large table, which are others for the next
-    test.
+    test. Rows that take long to find are a function, which the test calls and not each collection.
     """
-    every = list(rows)
-    step = one_of(len(every))
+    given = rows if callable(rows) else list(rows)
 
     def decorate(check: Callable[[Row], None]) -> Callable[[], None]:
         @wraps(check)
         def test() -> None:
             failures = {}
+            every = list(given() if callable(given) else given)
+            step = one_of(len(every))
             for row in every[crc32(check.__name__.encode()) % step :: step]:
                 try:
                     check(row)
