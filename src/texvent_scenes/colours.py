@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 import re
 from collections.abc import Mapping, Sequence
@@ -149,12 +150,18 @@ def name_colour(colour: Sequence[float] | NDArray[np.floating[Any]]) -> str:
         return next((name for name, most in _NEUTRAL if lightness <= most), "white")
 
     def distance(name: str) -> float:
-        other, *hue = _to_lab(np.asarray(SURFACES[name], np.float64))
+        other, *hue = _lab_of_name(name)
         turn = math.remainder(math.atan2(*chroma) - math.atan2(*hue), math.tau)
         depth = math.hypot(*chroma) - math.hypot(*hue)
         return math.hypot(_LIGHTNESS * (lightness - other), _HUE * turn, _DEPTH * depth)
 
     return _HUES[min(_HUES, key=distance)]
+
+
+@functools.cache
+def _lab_of_name(name: str) -> tuple[float, float, float]:
+    """CIELAB of a colour of `SURFACES`."""
+    return _to_lab(np.asarray(SURFACES[name], np.float64))
 
 
 def _to_lab(colour: NDArray[np.float64]) -> tuple[float, float, float]:

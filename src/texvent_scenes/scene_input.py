@@ -274,14 +274,25 @@ def _verbs() -> Mapping[str, tuple[str, ...]]:
     return {kind: tuple(verbs) for kind, verbs in found.items()}
 
 
+def _usual_motions(nouns: Mapping[str, Noun]) -> frozenset[str]:
+    return frozenset(kind for noun in nouns.values() for kind in (noun.motion, *noun.acts))
+
+
+@lru_cache(maxsize=1)
+def _embedded_motions() -> frozenset[str]:
+    from texvent_scenes.models.nouns import NOUNS
+
+    return _usual_motions(NOUNS)
+
+
 def list_words(nouns: Mapping[str, Noun]) -> Vocabulary:
     """The words of scenes, by kind: nouns, motions and activities, places, effects."""
     from texvent_scenes.models.activities import ACTIVITIES, HAND_GESTURES
     from texvent_scenes.models.effects import EFFECTS
-    from texvent_scenes.models.nouns import MOTIONS
+    from texvent_scenes.models.nouns import MOTIONS, NOUNS
     from texvent_scenes.models.places import PLACES
 
-    usual = {kind for noun in nouns.values() for kind in (noun.motion, *noun.acts)}
+    usual = _embedded_motions() if nouns is NOUNS else _usual_motions(nouns)
     return {
         "noun": nouns,
         "motion": {
@@ -320,10 +331,13 @@ def _meant(words: Iterable[str], nouns: Mapping[str, Noun]) -> Iterator[str]:
     from texvent_scenes.read.parsing.lexicon import lexicon_of
 
     known, initials = lexicon_of(nouns), dict[str, set[str]]()
+    every = dict.fromkeys(one for phrase in words for one in phrase.split())
+    if not every:
+        return
     for key, noun in nouns.items():
         for name in (key, *noun.synonyms):
             initials.setdefault(name[0], set()).add(name)
-    for word in dict.fromkeys(one for phrase in words for one in phrase.split()):
+    for word in every:
         is_open = len(word) > _SHORT and (word.lower(),) not in known
         names = initials.get(word[0].lower(), ()) if is_open else ()
         near = get_close_matches(word.lower(), names, 1, _NEAR)

@@ -5,6 +5,7 @@ Pictures are "photo.png", "9x6 checkerboard", "says STOP", "the digit 7".
 
 from __future__ import annotations
 
+import functools
 import re
 from collections.abc import Iterator
 
@@ -26,6 +27,7 @@ _SINGULAR = ("ss", "us", "is", "as", "lens")
 """Ends of singular nouns in s; others in s are plurals: "stairs", "headphones"."""
 
 
+@functools.cache
 def list_plurals(noun: str) -> tuple[str, ...]:
     """Plurals of a noun of one or more words, the usual one first.
 

@@ -1,4 +1,3 @@
-import pandas
 import pytest
 
 from texvent.errors import InputError
@@ -36,6 +35,8 @@ def test_a_sensor_beyond_int16_does_not_fit_tonic():
 
 
 def test_a_dataframe_has_the_columns_and_their_types():
+    import pandas  # it takes a second, in each worker that collects
+
     frame = LABELLED.to_dataframe()
     assert isinstance(frame, pandas.DataFrame)
     assert list(frame.columns) == ["x", "y", "t", "p", "label"]

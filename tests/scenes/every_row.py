@@ -10,21 +10,25 @@ from tests.examples import one_of
 Row = TypeVar("Row")
 
 
-def for_every(rows: Iterable[Row]) -> Callable[[Callable[[Row], None]], Callable[[], None]]:
+def for_every(
+    rows: Iterable[Row] | Callable[[], Iterable[Row]],
+) -> Callable[[Callable[[Row], None]], Callable[[], None]]:
     """Make one test of a check of one row; it names the rows that fail, and says why.
 
     A brief run checks one row of every few, another one each time: at a fixed step it would meet
-    one row alone of each short table that is multiplied with others.
+    one row alone of each short table that is multiplied with others. Rows that take long to find
+    are a function, which the test calls and not each collection.
     """
-    every = list(rows)
-    starts = range(0, len(every), one_of(len(every)))
+    given = rows if callable(rows) else list(rows)
 
     def decorate(check: Callable[[Row], None]) -> Callable[[], None]:
         @wraps(check)
         def test() -> None:
             failures = {}
-            for start in starts:
-                few = every[start : start + starts.step]
+            every = list(given() if callable(given) else given)
+            step = one_of(len(every))
+            for start in range(0, len(every), step):
+                few = every[start : start + step]
                 row = few[crc32(f"{check.__name__} {start}".encode()) % len(few)]
                 try:
                     check(row)

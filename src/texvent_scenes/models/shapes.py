@@ -98,7 +98,9 @@ def point(values: Sequence[float] | Affine) -> Point:
 def moved(parts: Iterable[ModelPart], motion: Affine) -> list[ModelPart]:
     """The same parts carried along by a motion."""
     parts = list(parts)
-    maps = compose(motion, np.array([each.to_body for each in parts]).reshape(-1, 3, 4))
+    if not parts:
+        return parts
+    maps = compose(motion, np.concatenate([each.to_body for each in parts]).reshape(-1, 3, 4))
     return [each.at(to_body) for each, to_body in zip(parts, maps, strict=True)]
 
 

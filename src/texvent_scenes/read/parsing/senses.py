@@ -167,6 +167,8 @@ def _is_after_subject(token: Token, tokens: Sequence[Token]) -> bool:
 def _goes_on(token: Token, tokens: Sequence[Token]) -> bool:
     """Whether it is a second act of a subject: "stands there and watches", no list of things."""
     conjunction, before = (token_at(tokens, token.at + step) for step in (-1, -2))
+    if conjunction.text != "and":
+        return False
     signs = (one.at + 1 for one in tokens[: token.at] if one.is_sign)
     said = tokens[max(signs, default=0) : max(token.at - 1, 0)]
     verbs = (*token.verbs("s"), *token.verbs("base"))
@@ -175,16 +177,17 @@ def _goes_on(token: Token, tokens: Sequence[Token]) -> bool:
     is_listed = any(one.value.is_plural for one in before.all("noun"))
     is_listed &= not (is_moved or _is_apart(token, said, tokens))
     is_act = bool(verbs) and (bool(acts) or is_moved)
-    return conjunction.text == "and" and is_act and not is_listed
+    return is_act and not is_listed
 
 
 def _is_new_verb(token: Token, said: Sequence[Token]) -> bool:
     """Whether an unknown word is a verb by its ending and place: "foam spreads over the stones"."""
+    if not (token.is_unknown and is_plural_form(token.text)):
+        return False
     at = next(n for n, one in enumerate(said) if one is token)
     before, after = (said[n] if 0 <= n < len(said) else NO_TOKEN for n in (at - 1, at + 1))
-    is_form = token.is_unknown and is_plural_form(token.text)
     is_after_subject = before.has("noun") or (before.is_unknown and not before.is_sign)
-    return is_form and is_after_subject and after.has("relation", "adverb")
+    return is_after_subject and after.has("relation", "adverb")
 
 
 def _is_way(token: Token) -> bool:
@@ -239,6 +242,8 @@ def _see_beside(token: Token, tokens: Sequence[Token]) -> Token:
     senses, table = [one.value for one in token.all("noun")], word_table("beside")
     singular = token.text if senses and not senses[0].is_plural else ""
     rows = table.get(singular) or table.get(senses[0].noun if senses else token.text, ())
+    if not rows:
+        return token
     others = {noun for one in tokens for noun in one.nouns}
     others |= {re.sub(r"['’]s$", "", one.text) for one in tokens}
     others |= {one.value[1] for each in tokens for one in each.all("pose")}

@@ -90,7 +90,7 @@ class Token:
 
     def all(self, kind: str) -> tuple[Sense, ...]:
         """Senses of a kind."""
-        return tuple(one for one in self.senses if one.kind == kind)
+        return tuple([one for one in self.senses if one.kind == kind])
 
     def first(self, *kinds: str) -> Sense | None:
         """The first sense of one of the kinds."""
@@ -121,7 +121,10 @@ class Token:
 
     def has(self, *kinds: str) -> bool:
         """Whether it may be of one of the kinds."""
-        return any(one.kind in kinds for one in self.senses)
+        for one in self.senses:  # half the time of `any`, and it is asked most of all
+            if one.kind in kinds:
+                return True
+        return False
 
     def verbs(self, *forms: str) -> tuple[Sense, ...]:
         """Its senses as a verb in one of the forms."""
