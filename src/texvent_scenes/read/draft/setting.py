@@ -19,7 +19,7 @@ def names_place(head: Token, relation: str) -> bool:
     if place is None or (head.is_liquid and relation in ("", "with", "from", "off")):
         return False
     if relation in word_set("things", "outside"):  # "behind a library": where is that?
-        return not is_thing and not is_room(place.value)
+        return not (is_thing and relation != "past") and not is_room(place.value)
     return bool(relation) or not is_thing
 
 
