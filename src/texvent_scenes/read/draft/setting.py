@@ -19,7 +19,7 @@ def names_place(head: Token, relation: str) -> bool:
     if place is None or (head.is_liquid and relation in ("", "with", "from", "off")):
         return False
     if relation in word_set("things", "outside"):  # "behind a library": where is that?
-        return not is_thing and not is_room(place.value)
+        return not (is_thing and relation != "past") and not is_room(place.value)
     return bool(relation) or not is_thing
 
 
@@ -129,9 +129,9 @@ def set_place(draft: SceneDraft, group: Group, head: Token, relation: str) -> No
         place.setdefault("name", name) == name or place["name"] in _true_of(head)
     ):  # "grass" in a park
         draft.mark(head, name if head.text in word_set("things", "stand_ins") else "shown")
-    for token in group.unknown:  # "a mountain road"
-        said = {one.value for one in token.all("place")}
-        if said & word_set("things", "backdrops") or (said and name == "indoor"):  # "a museum hall"
+    for token in group.unknown:  # "a mountain road", "a museum hall"
+        said_too = {one.value for one in token.all("place")}
+        if said_too & word_set("things", "backdrops") or (said_too and name == "indoor"):
             set_place(draft, Group(token), token, "in")
 
 
