@@ -148,3 +148,16 @@ def test_a_camera_that_moves_through_a_field_has_its_plants_before_it(place):
     crop = max(PLACES[place].scenery, key=lambda one: one.count).noun
     items = [one for one in scene.scenery if one.rule.noun == crop]
     assert sum(one.share_of(scene.camera(0.0)) > 0.0 for one in items) >= 8
+
+
+@pytest.mark.parametrize(
+    "text", ["a red car drives left at dusk", "a man walks in a park", "a bird flies over a forest",
+             "two cars meet at a crossing in a city", "a chair in a kitchen", "a train passes"],
+)  # fmt: skip
+def test_scenery_is_of_the_same_kinds_colours_and_heights_in_clips_of_any_length(text):
+    found = []
+    for duration_s in (1.0, 2.0, 4.0):
+        scene = compose_scene(understand(text, NOUNS), seed=3, size=SIZE, duration_s=duration_s)
+        found.append({(one.rule.noun, round(one.model.height, 6)) for one in scene.scenery})
+    fewest, *others = sorted(found, key=len)
+    assert all(len(fewest & one) >= 0.8 * len(fewest) for one in others)
