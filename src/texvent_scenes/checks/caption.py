@@ -218,8 +218,8 @@ def _tell_place_of(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
     if carried := _tell_carrier(staged, one, staged.times[at]):
         return carried
     low = body.middle[at] - 0.5 * body.size[at]
-    tied = [each for each in staged.scene.actors if each.track.anchor is not None]
-    carries = {each.object_index for each in tied if each.track.anchor.carrier is one.track}
+    tied = ((each.object_index, each.track.anchor) for each in staged.scene.actors)
+    carries = {n for n, anchor in tied if anchor is not None and anchor.carrier is one.track}
     for index, copies in enumerate(staged.boxes):
         for other in copies:
             if index not in carries and index != one.object_index and _bears(other, body, at):

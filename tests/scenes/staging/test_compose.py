@@ -168,3 +168,16 @@ def test_the_share_of_the_image_that_scenery_takes_is_that_of_its_box_as_it_stan
         shares.append(float(np.prod(np.ptp(seen, axis=0))) / 0.75)
         assert item.share_of(view) == pytest.approx(shares[-1])
     assert max(shares) > 1.1 * min(shares)
+
+
+@pytest.mark.parametrize(
+    "text", ["a red car drives left at dusk", "a man walks in a park", "a bird flies over a forest",
+             "two cars meet at a crossing in a city", "a chair in a kitchen", "a train passes"],
+)  # fmt: skip
+def test_scenery_is_of_the_same_kinds_colours_and_heights_in_clips_of_any_length(text):
+    found = []
+    for duration_s in (1.0, 2.0, 4.0):
+        scene = compose_scene(understand(text, NOUNS), seed=3, size=SIZE, duration_s=duration_s)
+        found.append({(one.rule.noun, round(one.model.height, 6)) for one in scene.scenery})
+    fewest, *others = sorted(found, key=len)
+    assert all(len(fewest & one) >= 0.8 * len(fewest) for one in others)

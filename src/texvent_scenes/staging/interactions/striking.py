@@ -349,7 +349,7 @@ def deliver(
     return replace(thing, track=sent), moving(receiver, rest)
 
 
-def _aimed(track: Track, way: Sequence[float] | Float64Array) -> Track:
+def _aimed(track: Track, way: Float64Array) -> Track:
     """The track of what is sent, its flight along a way [2]; what is hit comes from there."""
     flight, came_s = track.keys[-2], sum(key.duration_s for key in track.keys[:-2])
     x, y, z = track.at(came_s).position
@@ -375,7 +375,10 @@ def _leap_for(thing: Actor, animal: Actor, flown_s: float) -> tuple[Actor, Actor
     animal = moving(animal, _leap(animal, caught_s))
     held = held_at(animal, "mouth", shift(0.0, 0.0, -thing.lift_m), is_upright=True)
     end = held.at(caught_s).position
-    way, hop_m = np.subtract(end, track.at(caught_s - flown_s).position), end[2] - held.at(0.0).position[2]
+    way, hop_m = (
+        np.subtract(end, track.at(caught_s - flown_s).position),
+        end[2] - held.at(0.0).position[2],
+    )
     up_m_s = float(way[2]) / flown_s + 0.5 * GRAVITY_M_S2 * flown_s
     speed_m_s = float(np.hypot(*way[:2])) / flown_s
     flight = replace(flight, speed_m_s=sense * speed_m_s, climb_m_s=up_m_s)

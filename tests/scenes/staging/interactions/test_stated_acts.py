@@ -1,6 +1,7 @@
 """What a file states of bodies in acts is kept, or refused: places, headings, times, motions."""
 
 import itertools
+import re
 from typing import get_args
 
 import numpy as np
@@ -9,9 +10,11 @@ from tests.scenes.every_row import for_every
 from tests.scenes.staged import place
 
 from texvent.errors import ConfigError
+from texvent.sensor import SensorSize
 from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.scene_input import describe_scene
-from texvent_scenes.spec.data import SENT
+from texvent_scenes.spec.data import SENT, of_file, scene_from_data
 from texvent_scenes.spec.scene import Motion, Relation, RelationKind, Scene, SceneObject
 from texvent_scenes.staging.interactions.by_hand import BY_HAND
 from texvent_scenes.staging.interactions.perform import ACTS
@@ -185,3 +188,39 @@ def test_a_body_in_a_second_impact_is_refused_but_for_what_is_caught(row):
     bodies = accepted(*people, SceneObject("ball"))
     is_caught = by == 1 and "catch" in (first, second) and {first, second} & {*SENT}
     assert (bodies is not None) == bool(is_caught)
+
+
+@for_every(itertools.product(SENT, ("woman", "child", "dog"), ("ball", "football", "tennis ball"),
+                             (None, (3.0, 2.0), (-4.0, -1.0))))  # fmt: skip
+def test_what_is_sent_ends_at_who_catches_it_and_begins_apart_from_there(row):
+    kind, who, what, at_m = row
+    sender = SceneObject("man", relations=(Relation(kind, (what,)),),
+                         position_m=None if at_m is None else (0.0, 0.0))  # fmt: skip
+    catcher = SceneObject(who, relations=(Relation("catch", (what,)),), position_m=at_m)
+    _, receiver, thing = place(sender, catcher, SceneObject(what))
+    gaps = [float(np.linalg.norm(thing.middle(t) - receiver.middle(t)))
+            for t in np.linspace(0.0, 2.0, 41)]  # fmt: skip
+    assert min(gaps[-2:]) < 0.7 * receiver.size_m
+    assert gaps[0] > receiver.size_m * 0.5
+    assert min(gaps) > gaps[-1] - 0.1  # it does not go through the receiver
+
+
+PAIRS = (("child", "ball"), ("robot arm", "cup"), ("woman", "box"))
+STATED = ({"position_m": [4.1, 1.9]}, {"position_m": [0.0, 0.3], "heading_deg": 33.0},
+          {"height_m": 2.4, "position_m": [1.0, 1.0]})  # fmt: skip
+
+
+@for_every(itertools.product(PAIRS, ("kick", "lift", "catch", "hit", "set down"), STATED))
+def test_refusals_of_a_staged_file_name_it_and_say_what_to_do(row):
+    (who, what), kind, fields = row
+    holder = {"noun": who, "relations": [{"kind": kind, "to": [what]}], "position_m": [1.1, 1.9]}
+    table = {"objects": [{**holder, "heading_deg": 120.0}, {"noun": what} | fields]}
+    scene = of_file(scene_from_data(table), "folder/acts.toml")
+    generator = ProceduralGenerator(ProceduralConfig(), size=SensorSize(64, 48))
+    try:
+        text = str(generator.report(scene) and "")
+    except ConfigError as error:
+        text = str(error)
+    line = r"folder/acts\.toml: objects\[\d\][\w.\[\]]+ (is|has) .*[;,] (or )?(give|leave)"
+    assert not text or re.match(line, text), text
+    assert text.count("acts.toml") <= 1
