@@ -47,6 +47,9 @@ def test_four_fifths_are_runs_to_train_on_and_the_rest_is_scored(data):
     assert edges[-1][-1] <= rest.edges_us[0]
     assert len(rest) == FRAMES - 1 - 20
     assert trained.draw(1, np.random.default_rng(0)).edges_us.tolist() == edges[1].tolist()
+    drawn = {tuple(trained.draw(1, np.random.default_rng(seed), LENGTH - 2).edges_us.tolist())
+             for seed in range(40)}  # fmt: skip
+    assert drawn == {tuple(edges[1][first : first + LENGTH - 1].tolist()) for first in range(3)}
 
 
 def test_a_recording_is_copied_once_and_again_when_it_changes(data, recording):
