@@ -212,6 +212,16 @@ def test_a_clip_has_a_box_in_the_middle_of_each_window_after_the_first(tmp_path,
         assert found["t_us"].tolist() == [*range(0, 450_001, 50_000)]
 
 
+def test_options_of_an_arm_reach_its_runs_and_clips_have_seeds_of_their_own(tmp_path):
+    runs = [clips._settings(tmp_path / name, options) for name in ("a.npz", "b.npz", "a.npz")
+            for options in ({}, {"interpolate": "blend", "balance": 7.5})]  # fmt: skip
+    assert [one.interpolate.interpolate for one in runs] == ["none", "blend"] * 3
+    assert [one.simulate.balance == 7.5 for one in runs] == [False, True] * 3
+    seeds = [one.run.seed for one in runs]
+    assert seeds[:2] == seeds[4:] != seeds[2:4]
+    assert seeds[0] == seeds[1]
+
+
 def other(value):
     """Another value of a field of an arm."""
     kinds = {"exact": "frames", "": "v2v", (): (0.2,), 0.0: 0.3, None: SimpleNamespace(digest="x")}
