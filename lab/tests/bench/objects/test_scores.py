@@ -204,7 +204,13 @@ def test_a_clip_has_a_box_in_the_middle_of_each_window_after_the_first(tmp_path,
             return None, np.ones(len(points))
 
     film, item = Film(), SimpleNamespace(key="a", subject="a", label="mug")
-    monkeypatch.setattr(clips, "make_video", lambda *_: film)
+    seeds = []
+    monkeypatch.setattr(clips, "make_video", lambda _, made: seeds.append(made.run.seed) or film)
+    for key in "abba":
+        clips.render_clip(SimpleNamespace(**{**vars(item), "key": key}), {}, tmp_path / "other.npz")
+    assert seeds[:2] == seeds[:1:-1]
+    assert seeds[0] != seeds[1]
+    film.asked = ()
     clips.render_clip(item, {"sensor": "128x128"}, tmp_path / "clip.npz")
     assert film.asked == (150_000, 250_000, 350_000)
     with np.load(tmp_path / "clip.npz") as found:
