@@ -17,6 +17,12 @@ __all__ = ["moving_texture", "spawn"]
 HAS_TORCH = find_spec("torch") is not None
 
 
+def pytest_runtest_setup(item):
+    """Skip what needs torch itself, also while arrays stand for it."""
+    if not HAS_TORCH and item.get_closest_marker("torch"):
+        pytest.skip("make test-torch runs the tests that need torch")
+
+
 @pytest.fixture
 def plug_ins(monkeypatch):
     """The parts of lab/pyproject.toml, found as where the laboratory is installed."""

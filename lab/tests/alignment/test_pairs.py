@@ -12,6 +12,7 @@ from texvent.metrics.stpp import Stpp
 from texvent.sensor import SensorSize
 from texvent_lab.alignment.pairs import OTHER, score_pairs
 from texvent_lab.alignment.recordings import TextRecording
+from texvent_lab.bench.uncertainty import Mean
 from texvent_lab.commands.nt_imagenet import pairs_table
 
 from ..nt_imagenet.tiny_data import WNIDS, stream_id, write_n_imagenet
@@ -46,9 +47,26 @@ def test_parts_as_long_as_the_stream_are_compared_on_its_clock_and_by_id():
     nothing = recording("a", EventStream.empty(SIZE))
     (empty,) = score_pairs({"x": [nothing]}, streams, [Stpp()])
     assert empty["stpp"] == 0.0
+    # Of four parts some are the stream itself and others not: the score is the mean of all.
+    mixed = [recording("a", *repeated[:2], *(events(9, 50_000 * number) for number in (2, 3)))]
+    (row,) = score_pairs({"x": mixed}, streams, [Stpp()])
+    others = [score_pairs({"x": [recording("a", part)]}, streams, [Stpp()])[0]["stpp"]
+              for part in (events(1), events(9))]  # fmt: skip
+    assert min(others) + 0.05 < row["stpp"] < max(others) - 0.05
+
+
+def test_each_sample_is_also_held_to_the_next_stream_of_all():
+    parts = [events(seed) for seed in range(4)]
+    streams = [recording(name, part) for name, part in zip("abcd", parts, strict=True)]
+    samples = [recording(name, parts[(place + 1) % 4]) for place, name in enumerate("abcd")]
+    rows = score_pairs({"x": samples[:2], "y": samples[2:]}, streams, [Stpp()])
+    assert [row["stpp" + OTHER] for row in rows] == [1.0] * 4
 
 
 def test_means_over_pairs_have_intervals():
+    drift = [{"variant": "v", "stpp": 0.01 * n, f"stpp{OTHER}": 0.0} for n in range(20)]
+    low, high = Mean.of([row["stpp"] for row in drift], is_in_sequence=False).interval
+    assert f"| v | 20 | 0.0950 [{low:.4f}, {high:.4f}]" in pairs_table(drift, [Stpp()])
     rows = [{"variant": "v", "stpp": 0.1 * n, f"stpp{OTHER}": 0.0} for n in range(7)]
     text = pairs_table(rows, [Stpp()]).splitlines()[2]
     assert text.startswith("| v | 7 | 0.3000 [0.")

@@ -35,6 +35,8 @@ def test_a_ramp_of_light_has_its_own_gradient():
     ramp = np.exp(-0.1 * np.arange(30.0))
     light = np.broadcast_to(ramp[None, :, None], (8, 30, 3))
     assert log_gradient(light)[:, 2:-2] == pytest.approx(0.1, abs=1e-9)
+    lines = np.broadcast_to(np.resize([0.2, 0.5, 0.9], 30)[None, :, None], (8, 30, 3))
+    assert log_gradient(lines)[:, 2:-2] == pytest.approx(0, abs=1e-9)  # finer than what is smoothed
 
 
 def test_a_picture_has_a_contrast_of_all_vehicles_and_sky():

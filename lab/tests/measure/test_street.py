@@ -8,6 +8,7 @@ import pytest
 from texvent import EventStream, SensorSize
 from texvent.truth.boxes import BOX_RECORD
 from texvent_lab.bench.document import read_document
+from texvent_lab.measure import street
 from texvent_lab.measure.street import FOCAL, as_markdown, inside, measure, two_cars
 from texvent_scenes.scene_input import describe_scene, list_nouns
 from texvent_scenes.staging.compose import compose_scene
@@ -46,6 +47,21 @@ def test_events_of_a_car_are_those_in_its_box_as_it_moves():
 def test_the_table_of_the_design_notes_is_that_of_the_stored_result():
     rows = read_document(ROOT / "docs/results/street.json.gz")["rows"]
     assert as_markdown(rows) in (ROOT / "docs/design.md").read_text(encoding="utf-8")
+
+
+def test_speeds_and_lengths_are_those_of_the_image_of_the_camera(monkeypatch):
+    scenes = []
+    monkeypatch.setattr(
+        street.texvent, "generate", lambda scene, **_: scenes.append(scene) or stream()
+    )
+    rows = [*street.simulated_rows()]
+    assert len(rows) == len(scenes) >= 8
+    for row, scene in zip(rows, scenes, strict=True):
+        half = np.tan(np.radians(scene.camera.field_of_view_deg) / 2)
+        px_per_m = street.SIZE.width / 2 / half / np.linalg.norm(scene.camera.position_m)
+        speed_m_s = scene.objects[0].motions[0].speed_m_s
+        assert row.speed_px_s == pytest.approx(px_per_m * speed_m_s)
+        assert row.length_px == pytest.approx(px_per_m * street.CAR_M)
 
 
 def test_two_cars_pass_each_other_before_the_camera():

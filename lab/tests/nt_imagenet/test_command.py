@@ -9,6 +9,7 @@ import pytest
 
 from texvent.cli.app import main
 from texvent_lab.alignment.recordings import ids_of_clips, list_samples
+from texvent_lab.commands import nt_imagenet
 from texvent_lab.nt_imagenet.files import read_captioned
 
 from .tiny_data import WNIDS, stream_id, write_images, write_n_imagenet
@@ -90,6 +91,31 @@ def test_the_rows_of_table_10_are_printed_with_the_light_of_the_images(data, tmp
     levels = report(tmp_path / "nt")["streams"]["image_level"]
     assert levels["least"] == pytest.approx(19.5, abs=2)
     assert levels["most"] == pytest.approx(99.5, abs=4)
+
+
+def test_captions_that_fail_a_check_are_left_out_and_the_others_stay(data, tmp_path):
+    assert nt(data, tmp_path / "nt", "--leave-out", "duplicate") == 1
+    assert {one.id for one in read_captioned(tmp_path / "nt" / "captions.jsonl")} == {
+        stream_id(number) for number in (1, 2, 3)
+    }
+    assert report(tmp_path / "nt")["left_out"] == [stream_id(4)]
+
+
+def test_a_model_is_asked_for_the_captions_that_are_missing_alone(data, tmp_path, monkeypatch):
+    asked = {}
+
+    def make(images, model, kept, **options):
+        asked.update(images)
+        return dict.fromkeys(images, "a shark swims"), {}
+
+    monkeypatch.setattr(nt_imagenet, "make_captions", make)
+    for wnid, numbers in ((WNIDS[0], (1, 2, 4)), (WNIDS[1], (3, 5))):
+        write_images(tmp_path / "val", numbers, wnid)
+    words = ("--imagenet", str(tmp_path / "val"), "--model", "any")
+    assert nt(data, tmp_path / "nt", *words) == 0
+    assert asked.keys() == {stream_id(5)}
+    found = {one.id: one.caption for one in read_captioned(tmp_path / "nt" / "captions.jsonl")}
+    assert found == {stream_id(n): text for n, text in {**CAPTIONS, 5: "a shark swims"}.items()}
 
 
 def test_the_same_command_twice_gives_the_same_files_and_keeps_the_specification(

@@ -1,7 +1,9 @@
 """Trainings of one weight: rates, best and last networks by definition, whatever stops them."""
 
+import dataclasses
 import json
 import math
+from contextlib import nullcontext
 from types import SimpleNamespace
 
 import numpy as np
@@ -10,8 +12,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.examples import examples
 
-from texvent.errors import TexventError
+from texvent.errors import ConfigError, TexventError
 from texvent.runtime.progress import NO_PROGRESS
+from texvent_lab.registries import TASKS
 from texvent_lab.train.schedule import Hardware, Schedule
 
 SAMPLES, BATCH = 7, 3
@@ -180,6 +183,51 @@ def test_a_training_that_is_stopped_anywhere_ends_as_one_that_was_not(
     assert str(found[0]) == str(expected[0])
     assert found[1].tolist() == expected[1].tolist()
     assert found[2] == expected[2]
+
+
+@pytest.mark.parametrize("other", ["identity", "samples", "schedule", "nothing"])
+def test_a_training_goes_on_with_the_same_samples_scores_and_options_alone(
+    torch, train, monkeypatch, other, tmp_path
+):
+    schedule = Schedule(epochs=1, batch_size=BATCH)
+    train(Task(torch), schedule, tmp_path)
+    if other == "schedule":
+        schedule = Schedule(epochs=2, batch_size=BATCH)
+    elif other != "nothing":
+        monkeypatch.setattr({"identity": Task, "samples": Draws}[other], "identity", "changed")
+    with pytest.raises(ConfigError) if other != "nothing" else nullcontext():
+        train(Task(torch), schedule, tmp_path)
+
+
+PATHS = [
+    (task, table, one.name)
+    for task in TASKS.builtin
+    for table, own in {"": TASKS.load(task)(), **vars(TASKS.load(task)())}.items()
+    if dataclasses.is_dataclass(own)
+    for one in dataclasses.fields(own)
+    if "Path" in str(one.type)
+]
+
+
+@pytest.mark.parametrize(("task", "table", "name"), PATHS)
+def test_paths_count_from_the_folder_of_the_training_file(torch, task, table, name, tmp_path):
+    from texvent_lab.train.run import read_training
+
+    path = tmp_path / "there" / "training.toml"
+    path.parent.mkdir()
+    path.write_text(f"{f'{table}.' if table else ''}{name} = 'deeper/one'\n")
+    found = read_training(path, TASKS.load(task)())
+    assert getattr(getattr(found, table) if table else found, name) == path.parent / "deeper/one"
+
+
+@pytest.mark.parametrize("given", ['"bar"', '["bar", "slider_depth"]'])
+def test_recordings_are_names_or_count_from_the_training_file(torch, tmp_path, given):
+    from texvent_lab.train.run import read_training
+
+    (tmp_path / "bar").mkdir()
+    (tmp_path / "training.toml").write_text(f"data = {{recordings = {given}}}\n")
+    found = read_training(tmp_path / "training.toml", TASKS.load("reconstruction")()).data
+    assert found.recordings in [(str(tmp_path / "bar"), *more) for more in ((), ("slider_depth",))]
 
 
 @pytest.mark.parametrize("kind", ["adam", "adamw"])

@@ -82,6 +82,10 @@ def test_draws_fill_the_range_of_their_stimulus(stimulus):
         part = (found - middle) / half
         assert -1 <= part.min() < -0.97
         assert 0.97 < part.max() <= 1
+    chosen = dataclasses.replace(stimulus, gamma=1.7, lead_ms=3.0)
+    for one in (Digits.draw(many.images[:1], np.arange(1), 0, chosen),
+                Digits.as_measured(many.images[:1], chosen)):  # fmt: skip
+        assert (one.gamma, one.lead_ms) == (1.7, 3.0)
 
 
 @pytest.mark.parametrize("arm", ["esim", "texvent accurate", "frame difference"])

@@ -138,9 +138,8 @@ def test_what_is_no_factor_is_refused_in_one_line(configs, text, message):
         read_factors(configs / "factors.toml", arms_of(configs))
 
 
-@pytest.mark.torch
+@pytest.mark.usefixtures("networks", "torch")
 def test_the_command_compares_factors_with_their_arm(configs, tmp_path, capsys):
-    pytest.importorskip("torch")
     write_frames(tmp_path / "frames")
     write_turntables(tmp_path / "turntables")
     words = ["objects", str(configs), "--frames", str(tmp_path / "frames"), "--quiet"]

@@ -204,12 +204,28 @@ def test_a_clip_has_a_box_in_the_middle_of_each_window_after_the_first(tmp_path,
             return None, np.ones(len(points))
 
     film, item = Film(), SimpleNamespace(key="a", subject="a", label="mug")
-    monkeypatch.setattr(clips, "make_video", lambda *_: film)
+    seeds = []
+    monkeypatch.setattr(clips, "make_video", lambda _, made: seeds.append(made.run.seed) or film)
+    for key in "abba":
+        clips.render_clip(SimpleNamespace(**{**vars(item), "key": key}), {}, tmp_path / "other.npz")
+    assert seeds[:2] == seeds[:1:-1]
+    assert seeds[0] != seeds[1]
+    film.asked = ()
     clips.render_clip(item, {"sensor": "128x128"}, tmp_path / "clip.npz")
     assert film.asked == (150_000, 250_000, 350_000)
     with np.load(tmp_path / "clip.npz") as found:
         assert found["boxes"].tolist() == [[-5, -5, SIDE + 10, SIDE + 10]] * 3
         assert found["t_us"].tolist() == [*range(0, 450_001, 50_000)]
+
+
+def test_options_of_an_arm_reach_its_runs_and_clips_have_seeds_of_their_own(tmp_path):
+    runs = [clips._settings(tmp_path / name, options) for name in ("a.npz", "b.npz", "a.npz")
+            for options in ({}, {"interpolate": "blend", "balance": 7.5})]  # fmt: skip
+    assert [one.interpolate.interpolate for one in runs] == ["none", "blend"] * 3
+    assert [one.simulate.balance == 7.5 for one in runs] == [False, True] * 3
+    seeds = [one.run.seed for one in runs]
+    assert seeds[:2] == seeds[4:] != seeds[2:4]
+    assert seeds[0] == seeds[1]
 
 
 def other(value):

@@ -1,6 +1,5 @@
 """Tables 3 and 6: networks trained with a share of simulated clips and streams."""
 
-import json
 import shutil
 from dataclasses import replace
 from pathlib import Path
@@ -13,7 +12,6 @@ from texvent_lab.bench.paper import augmentation
 from texvent_lab.bench.paper.config import PaperConfig
 from texvent_lab.train.classification.config import PREFIX
 
-from ...train.windowed_specification import TEXT
 from ...train.written_samples import write_recordings
 
 
@@ -51,26 +49,6 @@ def test_each_network_of_the_paper_scores_classes_of_two_channels(name):
 
 
 @pytest.mark.detect
-def test_each_network_is_trained_alone_and_with_each_simulator(tmp_path, capsys, monkeypatch):
-    small = {"SqueezeNet": augmentation.CLASSIFIERS["SqueezeNet"]}
-    monkeypatch.setattr(augmentation, "CLASSIFIERS", small)
-    folder, work = write_streams(tmp_path / "streams"), tmp_path / "work"
-    given = words(folder, "--work", str(work), "-o", str(tmp_path / "found.json"))
-    assert main(given) == 0
-    rows = json.loads((tmp_path / "found.json").read_text())["table 6"]["rows"]
-    assert list(rows) == ["Original", "with Texvent"]
-    assert all(0 <= float(row["SqueezeNet"]) <= 1 for row in rows.values())
-    printed = capsys.readouterr().out
-    assert "20 % simulated streams" in printed
-    samples = {
-        name: json.loads((work / name / "history.json").read_text())["training"]["samples"]
-        for name in ("SqueezeNet-train", "SqueezeNet-texvent")
-    }
-    assert samples["SqueezeNet-texvent"].startswith(samples["SqueezeNet-train"])
-    assert samples["SqueezeNet-texvent"] != samples["SqueezeNet-train"]
-
-
-@pytest.mark.detect
 def test_torchvisions_networks_are_read_back_and_refuse_what_they_cannot_take(tmp_path, capsys):
     write_recordings(tmp_path / "recorded")
     text = (
@@ -90,29 +68,6 @@ def test_torchvisions_networks_are_read_back_and_refuse_what_they_cannot_take(tm
     path.write_text(text.format(name="squeezenet1_1", size="64x64"))
     assert main(command) == 0
     assert main(["evaluate", "classification", str(path), str(out / "weights.pt")]) == 0
-
-
-@pytest.mark.torch
-def test_images_are_learnt_from_recordings_alone_and_with_simulated_clips(
-    pan_folder, tmp_path, capsys, monkeypatch
-):
-    pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
-    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "cache"))  # no weights of LPIPS
-    monkeypatch.setattr(augmentation, "RECONSTRUCTORS", {"E2VID": "e2vid"})
-    monkeypatch.setattr(augmentation, "SEQUENCE", 4)
-    specification = tmp_path / "tiny.toml"
-    specification.write_text(TEXT.replace("[variants.esim]", "").replace('simulator = "esim"', "")
-                             .replace("32x24", "64x48").replace("0.125", "0.25"))  # fmt: skip
-    given = ["bench", "paper", "--table", "3", "--recordings", str(pan_folder), "-q"]
-    given += ["--epochs", "1", "--work", str(tmp_path / "work"), "-o", str(tmp_path / "a.json")]
-    assert main(given) == 0
-    assert "--specification FILE" in capsys.readouterr().out
-    assert main([*given, "--specification", str(specification), "--overwrite"]) == 0
-    rows = json.loads((tmp_path / "a.json").read_text())["table 3"]["rows"]
-    assert list(rows) == ["E2VID", "E2VID + 5 %"]
-    assert all(0 < float(row["MSE ↓"]) < 1 for row in rows.values())
-    assert rows["E2VID"] != rows["E2VID + 5 %"]
-    assert "loss: L1 + 1 - SSIM" in capsys.readouterr().out
 
 
 @pytest.fixture
@@ -157,7 +112,13 @@ def test_reconstruction_is_learned_without_and_with_simulated_clips(
     config = PaperConfig(
         table=3, recordings=str(pan_folder), specification=tmp_path / "spec.toml", epochs=2
     )
+    (need,) = augmentation.measure_augmented_reconstruction(
+        replace(config, specification=None), no_progress
+    ).needs
+    assert "--specification FILE" in need
+    absent = augmentation.load_measures().absent
     found = augmentation.measure_augmented_reconstruction(config, no_progress)
+    assert found.notes[0].endswith("loss: L1 + 1 - SSIM" if absent else "loss: LPIPS")
     titles = ["PSNR ↑", "SSIM ↑", "LPIPS ↓", "MSE ↓"]
     assert len(found.rows) == len(trainings) == 6
     for row, (folder, one) in zip(found.rows, trainings.items(), strict=True):
@@ -168,6 +129,7 @@ def test_reconstruction_is_learned_without_and_with_simulated_clips(
         assert list(found.rows[row].items()) == list(
             zip(titles, ["20.0000", "0.5000", "0.1250", "0.0625"], strict=True)
         )
+        assert (one.loss.l1, one.loss.ssim, one.loss.lpips) == ((1, 1, 0) if absent else (0, 0, 1))
         assert (one.data.crop, one.data.length, one.extra.share, one.schedule.epochs) == (
             48, 20, 0.05, 2
         )  # fmt: skip

@@ -9,6 +9,7 @@ import pytest
 
 from texvent.cli.app import main
 from texvent_lab.bench.paper import figures
+from texvent_lab.bench.paper.config import PaperConfig
 from texvent_lab.bench.paper.published_tables import FIGURES
 from texvent_lab.bench.paper.run import ENTRIES
 from texvent_lab.bench.real.recording import open_scene
@@ -51,6 +52,19 @@ def test_a_figure_shows_the_frame_the_recording_and_each_simulator(
     panels = [image[head:, n * width : n * width + size.width] for n in range(3)]
     assert all(one.std() > 0 for one in panels)
     assert (panels[1] != panels[2]).any()
+
+
+def test_the_slice_of_most_recorded_events_is_shown_whatever_is_simulated(pan_folder, monkeypatch):
+    scene, counts = open_scene(str(pan_folder)), []
+    edges = range(scene.whole.start_us, scene.whole.stop_us, figures.SLICE_US)
+    slices = [scene.events.cut(edge, edge + figures.SLICE_US) for edge in edges]
+    counts = [len(one) for one in slices]
+    fewest = slices[int(np.argmin(counts))]
+    monkeypatch.setattr(type(scene), "simulate", lambda *_: [fewest])
+    config = PaperConfig(figure=12, recordings=str(pan_folder), match_rate=False)
+    _, notes = figures.draw_figure(12, scene, COLUMNS, config, print)
+    start_us = edges[int(np.argmax(counts))]
+    assert f"; {start_us} to {start_us + figures.SLICE_US} µs" in notes[0]
 
 
 @pytest.mark.torch

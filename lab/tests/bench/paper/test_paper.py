@@ -137,6 +137,25 @@ def test_rife_is_left_out_of_every_row_where_the_user_wants_it_so(monkeypatch):
         assert ("--no-rife" in note) == (not rife)
 
 
+def test_values_are_means_over_recordings_and_times_those_of_a_pair_in_the_fastest_run(monkeypatch):
+    keep_few(monkeypatch)
+    columns, base = paper.find_columns(PaperConfig(table=1)), synthetic_report()
+    one = dataclasses.replace(base.scores[0], entry=columns["VID2E"].name)
+    scores = [dataclasses.replace(one, values={"stpp": x}) for x in ([0.5, 0.7], [0.1, 0.2])]
+    report = dataclasses.replace(base, scores=scores)
+    assert paper._means(report, "stpp", PaperConfig(table=1)) == {"VID2E": "0.375"}
+    durations = iter([40.0, 24.0, 36.0])
+    clock = SimpleNamespace(now=0.0)
+    monkeypatch.setattr(paper, "time", SimpleNamespace(perf_counter=lambda: clock.now))
+
+    def collect():
+        clock.now += next(durations) if clock.now else 1.0
+
+    packets = SimpleNamespace(collect=collect)
+    monkeypatch.setattr(paper, "prepare_video", lambda *_: SimpleNamespace(packets=packets))
+    assert paper._seconds_per_pair(range(13), columns["VID2E"]) == 2.0
+
+
 def test_every_row_of_a_table_has_a_figure_per_column():
     assert set(TABLES) == set(range(1, 10))
     for table in TABLES.values():

@@ -1,10 +1,16 @@
 """Events judged by the images made of them, on a recording whose events explain its frames."""
 
+import dataclasses
 import json
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
+from texvent.frames import Video
 from texvent_lab.bench.fidelity.entries import Entry
 from texvent_lab.bench.perturbations import scatter
 from texvent_lab.bench.reconstruction.run import (
@@ -16,10 +22,16 @@ from texvent_lab.bench.reconstruction.run import (
     run_reconstruction,
     simulate_recording,
 )
-from texvent_lab.bench.reconstruction.table import reconstruction_document, reconstruction_tables
+from texvent_lab.bench.reconstruction.scores import ImageScores
+from texvent_lab.bench.reconstruction.table import (
+    _compare,
+    reconstruction_document,
+    reconstruction_tables,
+)
+from texvent_lab.frame_recordings import FrameRecording
 from texvent_lab.reconstruct.image_measures import load_measures
 
-from .synthetic_network import FRAMES, STEP_US, StandInReconstructor, moving_bar
+from .synthetic_network import FRAMES, SIZE, STEP_US, StandInReconstructor, moving_bar
 
 ESIM = Entry(simulator="esim", interpolate="blend")
 
@@ -97,6 +109,25 @@ def test_a_fitted_threshold_gives_about_the_recorded_number_of_events():
     assert len(simulated) / seconds == pytest.approx(recorded_rate_hz(recording), rel=0.1)
 
 
+@given(
+    gaps=st.lists(st.integers(1, 400_000), min_size=1, max_size=12),
+    times=st.lists(st.integers(0, 4_000_000), min_size=1, max_size=40).map(sorted),
+)
+def test_the_recorded_rate_is_that_of_the_frames_of_the_first_second(gaps, times):
+    at_us = np.cumsum([5, *gaps])
+    t = np.array([0, 6, *times])
+    events = EventStream(0 * t, 0 * t, np.sort(t), 0 * t, SIZE)
+    packets = EventPackets((events[:3], events[3:]), SIZE)
+    frames = Video(np.zeros((len(at_us), *SIZE.shape), np.uint8), at_us.tolist())
+    recording = FrameRecording(name="it", frames=frames, events=packets)
+    after = at_us[at_us - at_us[0] >= 1_000_000]
+    last_us = after[0] if len(after) else at_us[-1]
+    count = sum(at_us[0] <= one < last_us for one in t.tolist())
+    if count:
+        rate = recorded_rate_hz(recording)
+        assert rate == pytest.approx(count * 1e6 / (last_us - at_us[0]))
+
+
 def test_frames_of_a_sensor_are_linear_for_models_that_ask():
     plan = ReconstructionPlan(frames_gamma=1.5)
     entry = Entry(simulator="physical", interpolate="none")
@@ -125,6 +156,12 @@ def test_tables_and_document_state_every_figure():
     assert "not measured: lpips: LPIPS's weights are not here" in text
     document = json.loads(json.dumps(reconstruction_document(report), allow_nan=False))
     assert document["schema"] == "texvent-reconstruction-3"
+    drift = ImageScores(t_us=range(16), values={"mse": [n / 16 for n in range(16)]})
+    rows = [dataclasses.replace(report.rows[1], source=one, scores=dataclasses.replace(
+        drift, values={"mse": [factor * x for x in drift.values["mse"]]}))
+        for one, factor in (("best", 0.1), ("other", 1.0))]  # fmt: skip
+    behind = _compare(rows)["mse"].behind_best["other"].difference
+    assert (behind.windows, behind.block) == (4, 4)  # neighbouring images are alike
     assert len(document["rows"]) == 4
     assert len(document["rows"][0]["values"]["ssim"]) == 4
     assert document["rows"][1]["mean"]["mse"] == pytest.approx(report.rows[1].scores.mean("mse"))

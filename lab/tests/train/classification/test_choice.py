@@ -21,13 +21,16 @@ def opened(*given, **data):
     return open_training(chosen, open_validation(chosen))
 
 
-@pytest.mark.parametrize(("format", "sensor"), [("npz", None), ("bin", "16x12")])
+@pytest.mark.parametrize(("format", "sensor"), [("npz", None), ("bin", "16x12"), ("csv", "16x12")])
 def test_recordings_of_any_format_are_read(tmp_path, format, sensor):
     write_recordings(tmp_path / "rec", format=format)
+    for beside in (tmp_path / "rec").rglob("*.json") if sensor else ():
+        beside.unlink()  # which states the size
     samples = open_validation(config(tmp_path, sensor=sensor))
     assert samples.class_number.tolist() == [0, 0, 0, 0, 1, 1, 1, 1]
     for place in range(len(samples)):
         assert samples.events(place).equals(bar(place // 4, 100 + place % 4))
+        assert samples.events(place).size == SIZE
         assert samples.title(place).startswith(
             str(tmp_path / "rec/val" / ["bus", "car"][place // 4])
         )

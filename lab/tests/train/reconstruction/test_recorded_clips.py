@@ -9,7 +9,10 @@ import pytest
 from texvent.errors import InputError
 from texvent_lab.frame_recordings import open_recording
 from texvent_lab.train.reconstruction.recorded_clips import ExtendedClips, RecordedClips
-from texvent_lab.train.reconstruction.sequences import SequenceData, WindowedClips
+from texvent_lab.train.reconstruction.recorded_clips import (
+    write_recording as write_recording_of_windows,
+)
+from texvent_lab.train.reconstruction.sequences import SequenceData, WindowedClips, read_clip
 
 from ...bench.reconstruction.synthetic_network import moving_bar, write_recording
 from ..windowed_specification import write_sequence_data
@@ -37,6 +40,17 @@ def test_a_window_holds_the_events_between_two_frames_and_the_second_one(data, r
         np.testing.assert_array_equal(found.targets["frame"][number], frames[number + 1].luma)
 
 
+@pytest.mark.parametrize("offset_us", [0, 700, -9_000])
+def test_frames_are_moved_by_their_offset_and_events_are_not(recording, tmp_path, offset_us):
+    true = open_recording(recording)
+    write_recording_of_windows(tmp_path / "one.h5", true, offset_us)
+    found, events = read_clip(tmp_path / "one.h5", 0, 25, []), true.events.collect()
+    edges = [frame.t_us + offset_us for frame in true.frames]
+    assert found.edges_us.tolist() == edges
+    for part, (start_us, stop_us) in zip(found.events, itertools.pairwise(edges), strict=True):
+        assert part.equals(events.cut(start_us, stop_us))
+
+
 def test_four_fifths_are_runs_to_train_on_and_the_rest_is_scored(data):
     trained = RecordedClips.open(data, "train")
     scored = RecordedClips.open(data, "validation")
@@ -47,6 +61,9 @@ def test_four_fifths_are_runs_to_train_on_and_the_rest_is_scored(data):
     assert edges[-1][-1] <= rest.edges_us[0]
     assert len(rest) == FRAMES - 1 - 20
     assert trained.draw(1, np.random.default_rng(0)).edges_us.tolist() == edges[1].tolist()
+    drawn = {tuple(trained.draw(1, np.random.default_rng(seed), LENGTH - 2).edges_us.tolist())
+             for seed in range(40)}  # fmt: skip
+    assert drawn == {tuple(edges[1][first : first + LENGTH - 1].tolist()) for first in range(3)}
 
 
 def test_a_recording_is_copied_once_and_again_when_it_changes(data, recording):

@@ -39,6 +39,31 @@ def test_they_are_equal_to_stored_ones(tmp_path: Path) -> None:
             assert events.equals(stored.events(number))
 
 
+CHANGES = {
+    "an option of the scene": ('sensor = "32x24"', 'sensor = "32x32"'),
+    "the drawn range": ("[0.1, 0.3]", "[0.1, 0.4]"),
+    "the words": ('["car", "bus"]', '["van", "bus"]'),
+    "the sentence": ("drives left", "drives right"),
+    "the seed": ('name = "tiny"', 'name = "tiny"\nseed = 1'),
+    "an option of the variant": ("seeds = 3", "seeds = 3\nbalance = 7.5"),
+}
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_every_sample_has_an_identity_of_its_own_by_all_that_decides_it(tmp_path, change):
+    seen = []
+    for text in (SPECIFICATION, SPECIFICATION.replace(*CHANGES[change]), SPECIFICATION):
+        (tmp_path / "tiny.toml").write_text(text)
+        clips = [SimulatedClips(tmp_path / "tiny.toml", split=split, variant="paper")
+                 for split in ("train", "test")]  # fmt: skip
+        facts = [(one, number, fact) for one in clips for number in range(3) for fact in (1, 2)]
+        seen.append([one.identity(number, fact) for one, number, fact in facts])
+    first, second, again = seen
+    assert len({*first}) == 12
+    assert first == again
+    assert sum(one == two for one, two in zip(first, second, strict=True)) <= 6
+
+
 def test_wrong_choices_are_refused(tmp_path: Path) -> None:
     path = tmp_path / "tiny.toml"
     path.write_text(SPECIFICATION)

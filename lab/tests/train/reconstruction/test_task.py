@@ -145,13 +145,3 @@ def test_gradients_reach_all_parameters_through_time():
     network(grids)[:, -1].sum().backward()
     assert grids.grad[:, 0].any()
     assert all(one.grad.any() for one in network.parameters())
-
-
-@pytest.mark.parametrize("given", ['"bar"', '["bar", "slider_depth"]'])
-def test_recordings_count_from_the_training_file(tmp_path, given):
-    (tmp_path / "bar").mkdir()
-    file = tmp_path / "training.toml"
-    file.write_text(f"data = {{recordings = {given}, length = 6}}\n")
-    data = read_training(file, ReconstructionConfig()).data
-    assert data.recordings[0] == str(tmp_path / "bar")
-    assert data.recordings[1:] in [(), ("slider_depth",)]
