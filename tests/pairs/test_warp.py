@@ -1,5 +1,7 @@
 """Warping, its paths and samples: hand-computed cases; compiled, they equal their definitions."""
 
+import functools
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -9,6 +11,28 @@ from tests.examples import examples
 from tests.pairs import reference
 
 from texvent.pairs import contested_paths, warping
+from texvent.runtime.kernel_arrays import read_only
+
+
+def as_in_a_run(kernel):
+    """The kernel of arrays that cannot be written, as those of a run: it is compiled once."""
+
+    def unwritten(value):
+        if isinstance(value, tuple):
+            return tuple(map(unwritten, value))
+        return read_only(value) if isinstance(value, np.ndarray) else value
+
+    @functools.wraps(kernel)
+    def call(*arguments):
+        return kernel(*map(unwritten, arguments))
+
+    return call
+
+
+find_sweep, number_contested, choose_paths = map(
+    as_in_a_run,
+    (contested_paths.find_sweep, contested_paths.number_contested, contested_paths.choose_paths),
+)
 
 
 def warp_between(*arrays):
@@ -96,7 +120,7 @@ def ball_flows(step, size=3, shape=(9, 24), x=2):
     return forward, backward
 
 
-@pytest.mark.parametrize("find", [reference.find_sweep, contested_paths.find_sweep])
+@pytest.mark.parametrize("find", [reference.find_sweep, find_sweep])
 def test_the_sweep_is_what_a_small_thing_passes_and_covers_in_neither_frame(find):
     sweep = find(*ball_flows(12), 0)
     # In columns 2 to 4 it is at first, in 14 to 16 at last; it passes 5 to 13.
@@ -105,7 +129,7 @@ def test_the_sweep_is_what_a_small_thing_passes_and_covers_in_neither_frame(find
     assert not sweep[:, 14:].any()
 
 
-@pytest.mark.parametrize("find", [reference.find_sweep, contested_paths.find_sweep])
+@pytest.mark.parametrize("find", [reference.find_sweep, find_sweep])
 def test_a_path_along_the_edge_stays_in_the_image(find):
     forward, backward = np.zeros((2, 3, 24, 2), np.float32)
     for row, slope in ((0, -0.4), (2, 0.4)):
@@ -115,7 +139,7 @@ def test_a_path_along_the_edge_stays_in_the_image(find):
     assert not sweep[1].any()
 
 
-@pytest.mark.parametrize("find", [reference.find_sweep, contested_paths.find_sweep])
+@pytest.mark.parametrize("find", [reference.find_sweep, find_sweep])
 @pytest.mark.parametrize("backward", [-12, 0])
 def test_nothing_sweeps_where_all_moves_or_the_later_frame_contradicts(find, backward):
     forward = np.broadcast_to(np.float32([12, 0]), (9, 24, 2)).copy()
@@ -158,15 +182,15 @@ def test_compiled_paths_equal_their_definition(seed, shape, shift, position):
     rng, position = np.random.default_rng(seed), np.float32(position)
     vectors = tuple(side + shift >> shift for side in shape)
     forward, backward = flows_of_surfaces(rng, vectors)
-    sweep = contested_paths.find_sweep(forward, backward, shift)
+    sweep = find_sweep(forward, backward, shift)
     expected = reference.find_sweep(forward, backward, shift)
     np.testing.assert_array_equal(sweep if sweep.size else np.zeros_like(forward), expected)
-    numbers = contested_paths.number_contested(forward, backward, sweep, shift)
+    numbers = number_contested(forward, backward, sweep, shift)
     found, is_chosen = forward - position * (forward + backward), numbers.reshape(-1) > 0
     if numbers.size:
         assert sorted(numbers[is_chosen]) == [*range(1, is_chosen.sum() + 1)]
         instants = np.array([0.5, position], np.float32)
-        paths = contested_paths.choose_paths((forward, backward), sweep, shift, numbers, instants)
+        paths = choose_paths((forward, backward), sweep, shift, numbers, instants)
         found.reshape(-1, 2)[is_chosen] = paths[1, numbers[is_chosen] - 1]
     wanted = reference.choose_paths(forward, backward, position, shift)
     np.testing.assert_array_equal(found, wanted)
@@ -183,7 +207,7 @@ def test_two_surfaces_meet_where_flows_differ_by_four_px_and_a_tenth(length, sha
     forward, backward = constant_flow((3, 70), length), constant_flow((3, 70), -length)
     backward[1, 20] = -length, across
     none = np.zeros((0, 0, 2), np.float32)
-    numbers = contested_paths.number_contested(forward, backward, none, 0)
+    numbers = number_contested(forward, backward, none, 0)
     assert [*np.flatnonzero(numbers)] == [90] * is_contested
 
 
@@ -192,7 +216,7 @@ def test_what_moves_by_three_to_48_px_is_followed(step, is_followed):
     forward, backward = ball_flows(step, size=1, shape=(9, 60))
     ground = -6
     forward[~forward.any(-1)], backward[~backward.any(-1)] = (ground, 0), (-ground, 0)
-    sweep = contested_paths.find_sweep(forward, backward, 0)
+    sweep = find_sweep(forward, backward, 0)
     assert bool(sweep.any()) == is_followed
     if is_followed:
         assert (sweep[3:6, 3 : 2 + step] == (step, 0)).all()
@@ -222,7 +246,7 @@ def test_a_path_is_taken_from_the_stated_agreement_on(path, kind, least, more):
     numbers = np.zeros(90, np.int32)
     numbers[x] = 1
     flows, middle = (forward, backward), np.float32([0.5])
-    chosen = contested_paths.choose_paths(flows, sweep, 0, numbers, middle)[0, 0]
+    chosen = choose_paths(flows, sweep, 0, numbers, middle)[0, 0]
     assert (chosen.tolist() == [path, 0]) == (more > 0)
 
 

@@ -101,7 +101,7 @@ def test_no_ray_slips_between_triangles_at_vertices_and_edges():
 @given(st.lists(st.tuples(st.integers(0, 11), st.integers(0, 11)), max_size=14))
 def test_joined_items_have_the_least_number_of_their_group(pairs):
     label = np.arange(12)
-    join_labels(label, *np.array(pairs, np.int64).reshape(-1, 2).T)
+    join_labels(label, *np.array(pairs, np.int64).reshape(-1, 2).T.copy())
     groups = [{item} for item in range(12)]
     for pair in pairs:
         joined = set.union(*(groups[one] for one in pair))
