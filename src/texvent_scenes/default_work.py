@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
-from texvent_scenes.description import STANDING
+from texvent_scenes.description import STANDING, WAYS_DEG
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.spec.scene import Direction, Motion, SceneObject
@@ -14,13 +14,6 @@ from texvent_scenes.spec.scene import Direction, Motion, SceneObject
 _BY_TURNS = frozenset({"work", "spin", "swing", "move", "stand"})
 """Motions of what works and rests at stated times."""
 _SIDES = ("left", "right")
-_WAYS_DEG: Mapping[Direction | None, float] = {
-    "right": 0.0,
-    "away": 90.0,
-    "left": 180.0,
-    "towards": 270.0,
-}
-"""Direction of goods → its heading."""
 _ALONG = 0.6
 """Least cosine between the way of a belt and a direction that is said of it."""
 AT_REST = Motion("stand", start_s=0.0)
@@ -109,32 +102,12 @@ def _sense(direction: Direction | None, heading_deg: float) -> Direction | None:
     """The sense of a belt with a heading that carries goods in a direction, if one does."""
     if direction in ("clockwise", "counter-clockwise"):
         return direction
-    if direction not in _WAYS_DEG:
+    if direction not in WAYS_DEG:
         return None
-    along = math.cos(math.radians(_WAYS_DEG[direction] - heading_deg))
+    along = math.cos(math.radians(WAYS_DEG[direction] - heading_deg))
     if abs(along) < _ALONG:
         return None
     return "clockwise" if along < 0.0 else "counter-clockwise"
-
-
-def name_sides(one: SceneObject) -> tuple[Motion, ...]:
-    """Motions of an object, those of a belt with the side to which its goods go, not its sense."""
-    first = next((each.direction for each in one.motions if each.kind == "work"), None)
-    base_deg = one.heading_deg if one.heading_deg is not None else _WAYS_DEG.get(first)
-    is_belt = trait_value("belt speed", one.noun) is not None
-    if not is_belt or one.noun in nouns_with("flat pattern") or base_deg is None:
-        return one.motions
-    return tuple(
-        replace(each, direction=_side_of(base_deg + 180.0 * (each.direction == "clockwise")))
-        if each.kind == "work" and each.direction in (None, "clockwise", "counter-clockwise")
-        else each
-        for each in one.motions
-    )
-
-
-def _side_of(heading_deg: float) -> Direction | None:
-    """The direction nearest to a heading."""
-    return max(_WAYS_DEG, key=lambda way: math.cos(math.radians(_WAYS_DEG[way] - heading_deg)))
 
 
 def list_work(motions: Sequence[Motion], noun: Noun) -> tuple[Motion, ...]:

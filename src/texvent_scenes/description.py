@@ -5,16 +5,23 @@ All else are the values of `spec.scene`; fields without a text mean the same the
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 
 from texvent.prompt_report import PromptReport
+from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.spec.data import scene_to_data
 from texvent_scenes.spec.files import inline_text
-from texvent_scenes.spec.scene import Motion, Scene, object_ids
+from texvent_scenes.spec.scene import Direction, Motion, Scene, SceneObject, object_ids
 
 SPIN_RATE_HZ = 0.5
 """Usual turns per second of what spins."""
 STANDING = Motion("stand")
+WAYS_DEG: Mapping[Direction | None, float] = {
+    "right": 0.0, "away": 90.0, "left": 180.0, "towards": 270.0,
+}  # fmt: skip
+"""Direction of goods on a belt → its heading."""
 
 
 @dataclass(frozen=True)
@@ -125,6 +132,26 @@ def to_description(scene: Scene) -> SceneDescription:
     return SceneDescription(**{**values, "objects": objects}, relations=relations)
 
 
+def _name_sides(one: SceneObject) -> tuple[Motion, ...]:
+    """Motions of an object, those of a belt with the side to which its goods go, not its sense."""
+    first = next((each.direction for each in one.motions if each.kind == "work"), None)
+    base_deg = one.heading_deg if one.heading_deg is not None else WAYS_DEG.get(first)
+    is_belt = trait_value("belt speed", one.noun) is not None
+    if not is_belt or one.noun in nouns_with("flat pattern") or base_deg is None:
+        return one.motions
+    return tuple(
+        replace(each, direction=_side_of(base_deg + 180.0 * (each.direction == "clockwise")))
+        if each.kind == "work" and each.direction in (None, "clockwise", "counter-clockwise")
+        else each
+        for each in one.motions
+    )
+
+
+def _side_of(heading_deg: float) -> Direction | None:
+    """The direction nearest to a heading."""
+    return max(WAYS_DEG, key=lambda way: math.cos(math.radians(WAYS_DEG[way] - heading_deg)))
+
+
 def said(motion: Motion) -> Motion:
     """A motion as a file has it: without the pace that its rate or its belt's speed makes."""
     is_made = motion.kind == "spin" and motion.rate_hz is not None
@@ -143,11 +170,9 @@ def report_of(description: SceneDescription) -> PromptReport:
         >>> report_of(SceneDescription(objects=(car,))).lines()
         ['objects: noun = "car", motions = [{ kind = "drive", direction = "left" }]']
     """
-    from texvent_scenes.default_work import name_sides  # which describes with this module
-
     objects = tuple(
         replace(one, id="" if one.id == one.noun else one.id,
-                motions=tuple(map(said, name_sides(one))))
+                motions=tuple(map(said, _name_sides(one))))
         for one in description.objects
     )  # fmt: skip
     values = {one.name: getattr(description, one.name) for one in fields(Scene)}

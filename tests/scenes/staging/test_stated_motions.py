@@ -172,8 +172,9 @@ def test_what_sways_or_tilts_does_not_cut_what_it_stands_on(row):
     if len(own[0]) == len(own[1]) and np.allclose(*own):  # its own parts stay
         foot_m = bodies[0].lowest_m(0.0)
         lows = [bodies[1].lowest_m(at) - foot_m for at in np.linspace(0.0, 2.0, 11)]
-        assert min(lows) > -0.01
-        assert max(lows) < 0.01 or motion.kind in ("hover", "float")
+        near_m = 0.01 + 0.002 * bodies[0].size_m
+        assert min(lows) > -near_m
+        assert max(lows) < near_m or motion.kind in ("hover", "float")
 
 
 @for_every(itertools.product(("vase", "sign", "bottle", "checkerboard"), ("table", "box"),
