@@ -284,6 +284,11 @@ def test_marks_tell_the_best_and_those_like_it_of_each_track(seed, windows):
     values["a"][0] += 1e-6
     tracks = {"a": "frames", "like a": "frames", "worse": "frames", "alone": "true frames"}
     found = Comparison(values, tracks, is_in_sequence=False)
+    lost = {"lost": [math.nan] * windows}  # an undefined one is never the best, the first neither
+    with_it = Comparison(lost | values, tracks | {"lost": "frames"}, is_in_sequence=False)
+    assert {one: behind.best for one, behind in with_it.behind_best.items()} == {
+        one: "a" for one in ("lost", "like a", "worse")
+    }
     unsure, worse = ("(?)", "(?)") if windows < 6 else ("(≈)", "")
     marks = {one: found.mark(one) for one in values}
     assert marks == {"a": "(best)", "like a": unsure, "worse": worse, "alone": "(best)", "half": ""}
