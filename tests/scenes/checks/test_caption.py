@@ -62,23 +62,10 @@ def test_a_way_is_told_with_its_length_side_and_speed(noun, direction, words):
     assert "at 1.5 m/s" in line
 
 
-@pytest.mark.parametrize(("kind", "words"), [("rise", "up"), ("fall", "down")])
-def test_a_way_up_or_down_is_told(kind, words):
-    motion = {"kind": kind, "speed_m_s": 1.0}
-    _, (line,), _ = lines({"noun": "drone", "motions": [motion]})
-    assert re.search(rf"goes .*m {words}\b", line), line
-
-
 def test_each_leg_of_a_way_is_told():
     legs = [{"kind": "rise"}, {"kind": "fly", "direction": "left", "speed_m_s": 2, "start_s": 0.5}]
     _, (line,), _ = lines({"noun": "drone", "height_m": 1.0, "motions": legs})
     assert re.search(r"goes [\d.]+ m to the left and [\d.]+ m up", line), line
-
-
-@pytest.mark.parametrize("pusher", ["man", "mobile robot", "woman"])
-def test_what_is_pushed_along_the_ground_is_on_it(pusher):
-    push = {"noun": pusher, "relations": [{"kind": "push", "to": ["crate"]}]}
-    assert "; on the ground" in lines(push, {"noun": "crate"})[1][1]
 
 
 @pytest.mark.parametrize(
