@@ -173,11 +173,6 @@ def test_what_rolls_on_castors_is_echoed_as_it_is_said(noun):
     assert [one.kind for one in said.objects[0].motions] == ["roll"]
 
 
-def test_a_rolling_camera_is_told_to_roll():
-    lines = report("the camera rolls clockwise over a bench").caption
-    assert any("rolls by" in one for one in lines)
-
-
 @pytest.mark.parametrize(
     "text", ["two sailboats race, white clouds move across the sky",
              "a duck swims, the sky is above it", "a ship, a deep blue sky"],

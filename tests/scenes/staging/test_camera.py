@@ -82,7 +82,7 @@ def test_a_group_is_as_prominent_as_its_copies_and_all_of_it_together(places, si
 
 @given(st.tuples(*3 * [st.floats(0.1, 20.0)]), st.floats(-9.0, 9.0))
 def test_a_room_has_walls_and_a_ceiling_beyond_all_that_is_in_it(most, away):
-    shot = CameraTrack(fit(SIGNS + [away, 0.0, 0.0], **SHOT, fill=0.5), (), 2.0)
+    shot = CameraTrack(fit(np.add(SIGNS, (away, 0.0, 0.0)), **SHOT, fill=0.5), (), 2.0)
     x, y, z = shot.at(0.0).position
     for corner in most * SIGNS:
         room_m = shot.in_room(corner[None], TIMES).room_m
