@@ -280,6 +280,15 @@ def test_copies_that_take_turns_begin_at_different_times(text, count):
     assert len(actors) == len(begun) == count
 
 
+def test_what_topples_one_after_another_stands_in_an_even_row():
+    for text in ("dominoes topple", "six bottles fall over", "four books topple"):
+        first, *others = read(f"{text} one after another", list_nouns()).scene.objects
+        places = [0.0, *(one.relations[0].distance_m for one in others)]
+        assert len(places) > 3
+        assert {one.relations[0].to for one in others} == {(first.noun,)}
+        np.testing.assert_allclose(np.diff(places), places[1], rtol=1e-5)
+
+
 @pytest.mark.parametrize(
     ("text", "noun"),
     [("a black disc with a white line spins", "white-lined disc"),

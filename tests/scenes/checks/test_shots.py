@@ -8,7 +8,7 @@ import pytest
 from tests.scenes.staged import DURATION_S, SIZE, stage, thing
 from tests.scenes.test_short_prompts import staged
 
-from texvent.camera import PosedCamera, project
+from texvent.camera import project
 from texvent.sensor import SensorSize
 from texvent_scenes.checks.limbs import find_tiny
 from texvent_scenes.checks.shots import find_misframed
@@ -18,10 +18,6 @@ from texvent_scenes.staging.camera.camera_track import CameraTrack
 from texvent_scenes.staging.camera.framing import pose
 
 TIMES = [float(one) for one in np.linspace(0.0, DURATION_S, 7)]
-
-
-FACING = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
-"""Axes of a camera that looks along y: right, down and forward."""
 
 
 def faults(scene, said):
@@ -58,23 +54,6 @@ def test_a_move_holds_if_the_camera_moves(kind):
     still = stage(thing("man", ("stand",)), camera=Camera(moves=(CameraMove("static"),)))
     assert faults(still, said) == [kind]
     assert faults(stage(thing("man", ("walk", "right")), camera=said), said) == []
-
-
-@pytest.mark.parametrize("share", [0.9, 1.1])
-@pytest.mark.parametrize("way", [(1, 0), (-1, 0), (0, 1), (0, -1)])
-def test_who_is_followed_is_in_the_image_up_to_each_of_its_sides(way, share):
-    scene = stage(thing("man", ("walk", "right")))
-    half = 0.5 * share * np.array([SIZE.width, SIZE.height]) / SIZE.width
-    cameras = []
-    for time_s in TIMES:
-        middle = scene.actors[0].middle(time_s)
-        right, down = half * way * 4.0
-        cameras.append(PosedCamera(middle - [right, 4.0, -down], FACING, 1.0))
-    description = SceneDescription(
-        objects=(thing("man"),), camera=Camera(moves=(CameraMove("follow"),))
-    )
-    found = [one.line for one in find_misframed(scene, description, cameras, TIMES, SIZE)]
-    assert bool(found) == (share > 1.0), found
 
 
 @pytest.mark.parametrize(
@@ -116,14 +95,6 @@ def test_a_close_camera_goes_along_and_sees_the_front_or_the_back(text, way):
         assert way * facing > 0.7
         assert np.ptp(project(camera, SIZE, body.corners(time_s))[:, 1]) > 0.3 * SIZE.height
     assert said.is_faithful
-
-
-def test_a_close_up_is_none_where_the_subject_is_small():
-    scene = stage(thing("man"), camera=Camera(framing="close"))
-    assert faults(scene, Camera(framing="close")) == []
-    path = scene.camera_path
-    far = replace(path, framing=replace(path.framing, distance_m=3.0 * path.framing.distance_m))
-    assert faults(replace(scene, camera_path=far), Camera(framing="close")) == ["close"]
 
 
 @pytest.mark.parametrize(
@@ -169,26 +140,10 @@ def test_a_framing_holds_where_it_is_staged_and_another_one_does_not(noun):
 
 
 @pytest.mark.parametrize(
-    ("text", "is_so"),
-    [("a man walks, the camera is at eye level", True),
-     ("eye level shot of a truck driving", False),
-     ("top view of a dog running, at eye level", False), ("a drone hovers at eye level", True),
-     ("a drone hovers 20 m above the ground at eye level", False)],
-)  # fmt: skip
-def test_eye_level_is_shown_where_the_camera_or_what_hovers_is_so_high(text, is_so):
-    said = staged(text)[1]
-    assert any("eye level" in one for one in said.shown) == is_so
-    assert any("eye level" in one for one in said.not_shown) != is_so
-
-
-@pytest.mark.parametrize(
     ("text", "is_told"),
-    [
-        ("close-up of a woman kneading dough", True),
-        ("an old man walks", False),
-        ("close-up of a girl laughing", False),
-    ],
-)
+    [("close-up of a woman kneading dough", True), ("an old man walks", False),
+     ("close-up of a girl laughing", False)],
+)  # fmt: skip
 def test_a_person_whose_head_is_out_of_the_picture_is_noted(text, is_told):
     assert any("head of the" in one for one in staged(text)[1].notes) == is_told
 

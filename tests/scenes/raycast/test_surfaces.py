@@ -67,6 +67,15 @@ def test_a_material_keeps_its_mean_at_every_size(texture):
     assert np.abs(means[0][2:]).max() < 0.05
 
 
+def test_tiles_have_no_seam_and_slopes_along_their_own_axes():
+    for texture, axis in itertools.product(SURFACES, (0, 1)):
+        look, slope = finest(texture)[..., :2].sum(axis=2), finest(texture)[..., 3 - axis]
+        steps = np.abs(np.diff(look, axis=axis, append=look.take([0], axis))).mean(axis=1 - axis)
+        assert steps[-1] <= 1.02 * np.sort(steps[:-1])[-3], (texture, axis)
+        ways = [np.abs(slope.mean(axis=one)).mean() for one in (axis, 1 - axis)]
+        assert ways[0] <= ways[1] + 1e-6, (texture, axis)  # around a ring a slope is even
+
+
 METRES, ANGLE = st.floats(-30, 30), st.floats(-3, 3)
 
 

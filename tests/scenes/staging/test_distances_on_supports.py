@@ -126,3 +126,17 @@ def test_nothing_is_put_into_a_row_of_copies(row):
         apart = np.subtract(one.track.at(0.0).position, other.track.at(0.0).position)
         radii = [0.5 * min(each.model.length, each.model.width) for each in (one, other)]
         assert float(np.hypot(*apart[:2])) > sum(radii) - 1e-6
+
+
+@for_every(itertools.product(SUPPORTS, (1, 2, 4), (30.0, 90.0, 205.0)))
+def test_what_is_on_a_support_turns_with_it(row):
+    (support, noun, _), count, heading_deg = row
+    on = Relation("on", (support,))
+    found = []
+    for turn in (0.0, heading_deg):
+        below, *things = place(SceneObject(support, position_m=(0.0, 0.0), heading_deg=turn),
+                               SceneObject(noun, count=count, relations=(on,)))  # fmt: skip
+        to_world = below.track.at(0.0).to_world()
+        places = np.array([one.track.at(0.0).position for one in things])
+        found.append((places - to_world[:, 3]) @ to_world[:, :3])
+    np.testing.assert_allclose(*found, atol=1e-6)

@@ -1,17 +1,24 @@
 """Acts: what is held stays in the hand, bodies meet when they should, nothing jumps."""
 
+import itertools
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from tests.scenes.every_row import for_every
 from tests.scenes.staged import DURATION_S, middle, stage, thing
 from tests.scenes.test_short_prompts import report, staged
 
+from texvent_scenes.description import IndexedRelation, SceneDescription
 from texvent_scenes.models.anchors import top_heights
+from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.protocol import Pose
 from texvent_scenes.models.shapes import bounds, moved
+from texvent_scenes.models.tables import nouns_with, trait_values
 from texvent_scenes.spec.scene import Motion, SceneObject
 from texvent_scenes.staging.actors import Actor
+from texvent_scenes.staging.interactions.settling import settle_motions
 from texvent_scenes.staging.interactions.striking import contact_time
 
 CONTACT_M = 0.02
@@ -209,3 +216,21 @@ def test_who_runs_against_something_and_turns_goes_another_way(text, turned):
     first, last = (actor.track.at(at).yaw for at in (0.0, 2.9))
     assert math.remainder(last - first - turned, math.tau) == pytest.approx(0.0, abs=1e-6)
     assert "turns" in " ".join(report(text).shown)
+
+
+RIDDEN = sorted(NOUNS.keys() & trait_values("ridden").keys() - nouns_with("ridden in place"))
+GOING = [(Motion("run", "left"),), (Motion("jump"), Motion("walk", start_s=1.0)),
+         (Motion("walk", pace=2.0), Motion("stand", start_s=1.2))]  # fmt: skip
+
+
+@for_every(itertools.product(RIDDEN, GOING))
+def test_it_is_the_same_whether_a_rider_or_what_is_ridden_is_said_to_go(row):
+    noun, motions = row
+    said = []
+    for own in ((motions, ()), ((), motions)):
+        objects = tuple(map(SceneObject, ("man", noun)))
+        objects = tuple(replace(one, motions=each) for one, each in zip(objects, own, strict=True))
+        scene = SceneDescription(objects=objects, relations=(IndexedRelation("ride", 0, (1,)),))
+        said.append(settle_motions(scene, NOUNS, 0).objects)
+    assert said[0] == said[1]
+    assert len(said[0][1].motions) == len(motions)

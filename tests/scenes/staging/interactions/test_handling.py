@@ -1,9 +1,12 @@
 """Acts on things at hand: each is where its row has it, and a hand or a mouth reaches it."""
 
+import itertools
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from tests.scenes.test_short_prompts import is_right, report, staged
 
 from texvent_scenes.checks.acts import handles
@@ -160,23 +163,39 @@ def test_a_paw_is_raised_while_others_stay(text):
     assert is_right(text)
 
 
-def test_what_is_tossed_is_in_free_flight_and_then_rests():
-    toss = Toss(hz=0.8, up=0.4, start=0.25)
+@pytest.mark.parametrize("turns", [0.0, 1.0, 2.5])
+@pytest.mark.parametrize(("hz", "up"), [(0.8, 0.4), (2.0, 0.1)])
+def test_what_is_tossed_is_in_free_flight_turns_so_often_and_then_rests(hz, up, turns):
+    toss = Toss(hz=hz, up=up, start=0.25, turns=turns, axis="z")
     times = np.arange(0.0, 2.5, 0.01)
-    height = np.array([toss.place(BALL, at)[0].to_body[2, 3] for at in times])
+    maps = np.array([toss.place(BALL, at)[0].to_body for at in times])
+    height = maps[:, 2, 3]
     is_up = height > 1e-9
     bend = np.diff(height, 2)[is_up[:-2] & is_up[1:-1] & is_up[2:]]
     np.testing.assert_allclose(bend, -9.81 * 1e-4, rtol=1e-6)
-    assert height.max() == pytest.approx(0.4, abs=1e-3)
+    assert height.max() == pytest.approx(up, abs=1e-3)
     assert (height[~is_up] == 0.0).all()
+    turned = np.unwrap(np.arctan2(maps[:, 1, 0], maps[:, 0, 0]))
+    rate = 2.0 * np.pi * turns / np.sqrt(8.0 * up / 9.81)
+    steps = np.diff(turned)[is_up[:-1] & is_up[1:]] / 0.01
+    np.testing.assert_allclose(steps, rate, atol=1e-6)
 
 
-def test_copies_leave_one_by_one_and_go_on_at_their_speed():
-    emission = Emission(hz=4.0, lasts_s=1.0, speed=(2.0, 0.0, 0.0))
-    for at in (0.03, 0.6, 7.7):
-        x = sorted(one.to_body[0, 3] for one in emission.place(BALL, at))
-        np.testing.assert_allclose(np.diff(x), 0.5)
-        assert 0.0 <= x[0] < 0.5
+@given(hz=st.floats(1.0, 9.0), lasts_s=st.floats(0.3, 2.0), at=st.floats(-3.0, 9.0))
+def test_copies_leave_one_by_one_each_on_its_own_way_and_slow_down(hz, lasts_s, at):
+    count = max(round(hz * lasts_s), 1)
+    for drag, spread in itertools.product((0.0, 0.7, 3.0), (0.0, 0.5)):
+        emission = Emission(hz, lasts_s, (2.0, 0.0, 1.0), spread, drag=drag)
+        *places, again = (
+            np.array([one.to_body[:, 3] for one in emission.place(BALL, at + step_s)])
+            for step_s in (0.0, 0.01, 0.02, count / hz)
+        )
+        ways = np.diff(places, axis=0)
+        flies = (ways[..., 0] > 0.0).all(axis=0) & (places[0][:, 0] > 0.02)  # neither new nor gone
+        np.testing.assert_allclose(ways[1, flies], np.exp(-0.01 * drag) * ways[0, flies], atol=1e-9)
+        speeds = ways[0, flies] / 0.01 + drag * places[0][flies]
+        assert (np.abs(speeds - (2.0, 0.0, 1.0)) <= spread + 0.06).all()
+        assert (np.abs(again - places[0]) > 1e-6)[flies].any() == (spread > 0.0 and flies.any())
 
 
 TEXTS = ["two boys play table tennis", "two girls play badminton", "a table tennis rally",
