@@ -387,6 +387,8 @@ def choose_props(description: SceneDescription, group: ObjectGroup) -> tuple[Pro
     shown = {scene_object.noun: scene_object for scene_object in description.objects}
     said = group.scene_object.motions or (STANDING,)
     kinds = dict.fromkeys(motion.kind for motion in said)
+    if group.plan.path is not None:  # as the way to a jump
+        kinds |= dict.fromkeys(key.activity for key in group.plan.path.keys)
     size = size_of(group.models[0])
     props = [prop for kind in kinds for prop in list_props(kind, size)]
     props = props or list(HOLDS.get(group.noun.name, ()))
