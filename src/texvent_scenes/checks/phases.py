@@ -49,6 +49,9 @@ _DONE = 0.7
 _TOLD, _SURELY = 4, 16
 """Points of the image from which on a body is no speck; those in its box of which one is surely on
 it."""
+_COVERED, _COUNTED = 0.25, 6
+"""Share of what its copies show at best of which a copy that shows less is almost hidden; copies
+that one counts."""
 
 
 def find_undone(
@@ -248,11 +251,24 @@ def list_hidden(
     """
     least_px = _SURELY * point_px
     flashing = {one.actor.instance for one in scene.lamps.lit if one.flashes}
-    for one in (each for each in scene.actors if each.instance not in flashing):
+    told = [one for one in scene.actors if one.instance not in flashing]
+    areas = {one.instance: [_area_px(one.corners(time_s), camera, size)
+                            for time_s, camera in zip(times, cameras, strict=True)]
+             for one in told}  # fmt: skip
+    for one in told:
         counts = seen[one.instance]
         whole_s = math.inf if one.breaks_s is None else one.breaks_s
-        gone = [not count and time_s < whole_s
-                and _area_px(one.corners(time_s), camera, size) >= least_px
-                for count, time_s, camera in zip(counts, times, cameras, strict=True)]  # fmt: skip
+        copies = [other.instance for other in told if other.object_index == one.object_index]
+        fullest = max((count / area for each in copies if 1 < len(copies) <= _COUNTED
+                       for count, area in zip(seen[each], areas[each], strict=True)
+                       if area >= least_px), default=0.0)  # fmt: skip
+        is_in = [area >= least_px and time_s < whole_s
+                 for area, time_s in zip(areas[one.instance], times, strict=True)]  # fmt: skip
+        gone = [inside and not count for inside, count in zip(is_in, counts, strict=True)]
+        covered = [inside and count <= _COVERED * fullest * area for inside, count, area
+                   in zip(is_in, counts, areas[one.instance], strict=True)]  # fmt: skip
         if max(counts) >= _TOLD and sum(gone) > 1:
             yield f"the {one.name} is hidden for {sum(gone) / len(gone):.0%} of the clip"
+        elif max(counts) >= _TOLD and 2 * sum(covered) > len(covered):
+            yield (f"the {one.name} (1 of {len(copies)}) is almost hidden for "
+                   f"{sum(covered) / len(covered):.0%} of the clip")  # fmt: skip

@@ -253,13 +253,18 @@ def has_colour(parts: Sequence[ModelPart], colour: Colour, least: float = _LEAST
         colour: linear-light RGB.
         least: share of the surface.
     """
+    return colour_share(parts, colour) >= least
+
+
+def colour_share(parts: Sequence[ModelPart], colour: Colour) -> float:
+    """Share of the surface of some parts that has about that colour, linear-light RGB."""
 
     def is_like(part: ModelPart) -> bool:
         both = [part.colour] if part.mesh is None else [mean_colour(part.mesh)]
         both += [] if part.texture is Texture.PLAIN else [part.second_colour]
         return any(np.linalg.norm(np.cbrt(one) - np.cbrt(colour)) <= _NEAR for one in both)
 
-    return share_of(parts, is_like) >= least
+    return share_of(parts, is_like)
 
 
 def _is_alike(one: ModelPart, other: ModelPart) -> bool:

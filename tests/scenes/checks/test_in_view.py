@@ -383,6 +383,21 @@ def test_a_note_tells_how_long_something_else_hides_a_body(y, found):
     assert any(one.startswith("the car is hidden for ") for one in notes) == found
 
 
+@pytest.mark.parametrize(
+    ("prompt", "found"),
+    [
+        ("Woman in a green coat walking her three small dogs", True),
+        ("A woman walks three dogs on grass", False),
+        ("Three horses gallop across a field", False),
+        ("Four ducks swim on a pond", False),
+    ],
+)
+def test_a_note_tells_of_a_copy_that_another_body_hides_most_of_the_time(prompt, found):
+    report = ProceduralGenerator(ProceduralConfig(duration=2.0), size=SIZE).report(prompt)
+    told = [one for one in report.notes if " is almost hidden for " in one]
+    assert [one.partition(" is ")[0] for one in told] == ["the dog (1 of 3)"] * found
+
+
 def test_boxes_at_the_end_of_a_way_have_the_parts_and_the_heading_of_that_instant():
     rider = block(1.0, (0.0, 0.0, 8.5), (5.0, 0.0, 8.5))
     bus, start = block(8.0, (0.0, 0.0, 4.0), (5.0, 0.0, 4.0)), block(8.0, (0.0, 0.0, 4.0))

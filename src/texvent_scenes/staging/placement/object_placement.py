@@ -58,6 +58,7 @@ from texvent_scenes.staging.placement.relations import (
 from texvent_scenes.staging.placement.rows import stands
 from texvent_scenes.staging.placement.sizes import Sizes
 from texvent_scenes.staging.placement.tags import list_pictures, note_tags
+from texvent_scenes.staging.placement.told_apart import list_telling, note_alike, unlike
 from texvent_scenes.staging.placement.ways import has_fault, lead
 from texvent_scenes.staging.placement.zones import list_orphans
 from texvent_scenes.staging.surroundings.environment import lies_ashore
@@ -159,6 +160,9 @@ class ObjectPlacer:
         colour = rgb_of(scene_object.colour)
         seeds = [int(rng.integers(2**31)) for _ in range(scene_object.count)]
         seeds = seeds[:1] * len(seeds) if noun.name in nouns_with("alike") else seeds
+        told = list_telling(self._description, index)
+        seeds = [unlike(noun, seed, told) for seed in seeds]
+        self.notes.extend(note_alike(noun, seeds, told))
         models: list[Model] = [
             in_material(
                 noun.build(colour=colour, scale=size, seed=seed), scene_object.material, colour
