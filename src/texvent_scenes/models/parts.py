@@ -168,7 +168,7 @@ class PartsBuilder:
         return {label: [read_parts(one)[0] for one in texts] for label, texts in said.items()}
 
 
-@lru_cache(maxsize=256)
+@lru_cache(maxsize=1024)  # of 10 to 30 kB each
 def _build(builder: PartsBuilder, colour: Colour | None, seed: int) -> ArticulatedModel:
     """The body at its usual size: most of a scene's time is measuring those of its scenery."""
     return builder.build(colour, seed)

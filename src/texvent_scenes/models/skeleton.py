@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -209,6 +209,10 @@ def _clip(box: ModelPart, axis: int, low: float, high: float) -> ModelPart:
     return box.at(to_body)
 
 
+_Located = tuple[Affine | None, list[Affine | None], Maps]
+"""Maps to body coordinates: of the body, of all groups, and of all that has a name."""
+
+
 @dataclass(frozen=True)
 class Body:
     """One body on its skeleton, at its usual size."""
@@ -230,6 +234,9 @@ class Body:
     wave: Callable[[ModelPart, Instant], ModelPart] | None = None
     walk: Walk | None = None
     legs: Sequence[DrawLegs] = ()
+    _latest: dict[str, tuple[Pose, tuple[Instant, Steps | None, _Located]]] = field(
+        default_factory=dict, init=False, repr=False, compare=False
+    )
 
     @property
     def moves_all(self) -> bool:
@@ -243,11 +250,14 @@ class Body:
 
     def articulate(self, pose: Pose) -> list[ModelPart]:
         """All parts that move, at that pose."""
-        return self.draw(*self._observe(pose))
+        return self._draw(*self._stand(pose))
 
     def draw(self, now: Instant, steps: Steps | None = None) -> list[ModelPart]:
         """All parts that move, at an instant."""
-        body, motions, named = self._locate_groups(now)
+        return self._draw(now, steps, self._locate_groups(now))
+
+    def _draw(self, now: Instant, steps: Steps | None, groups: _Located) -> list[ModelPart]:
+        body, motions, named = groups
         parts = list(self.rigid) if self.moves_all else []
         if self.wave is not None:
             parts = [self.wave(part, now) for part in parts]
@@ -265,16 +275,32 @@ class Body:
 
     def locate(self, name: str, pose: Pose) -> Affine | None:
         """Axes [3, 4] at a named place; "other" is the one that a name without its own means."""
-        return self.locate_at(name, self._observe(pose)[0])
+        anchor = self._anchor_of(name)
+        return None if anchor is None else anchor.locate(self._stand(pose)[2][2])
 
     def locate_at(self, name: str, now: Instant) -> Affine | None:
         """The same at an instant."""
-        anchor = self.anchors.get(name, self.anchors.get("other"))
+        anchor = self._anchor_of(name)
         return None if anchor is None else anchor.locate(self._locate_groups(now)[2])
+
+    def _anchor_of(self, name: str) -> Anchor | None:
+        return self.anchors.get(name, self.anchors.get("other"))
 
     def map_groups(self, pose: Pose) -> Maps:
         """Maps to body coordinates of all that has a name: groups, bones, ends of limbs."""
-        return self._locate_groups(self._observe(pose)[0])[2]
+        return self._stand(pose)[2][2]
+
+    def _stand(self, pose: Pose) -> tuple[Instant, Steps | None, _Located]:
+        """State and maps at a pose; the latest are kept, as parts and places are asked for in turn.
+
+        A tuple takes the place of another at once, so that threads may ask for different poses.
+        """
+        latest = self._latest.get("pose")
+        if latest is None or latest[0] != pose:
+            now, steps = self._observe(pose)
+            latest = pose, (now, steps, self._locate_groups(now))
+            self._latest["pose"] = latest
+        return latest[1]
 
     def _observe(self, pose: Pose) -> tuple[Instant, Steps | None]:
         """State that joints follow, and steps of legs."""
@@ -286,7 +312,7 @@ class Body:
         channels = {**channels, **sizes}
         return Instant(pose, self.seed, channels, steps.strides), steps
 
-    def _locate_groups(self, now: Instant) -> tuple[Affine | None, list[Affine | None], Maps]:
+    def _locate_groups(self, now: Instant) -> _Located:
         """Maps to body coordinates: of the body, of all groups, and of all that has a name."""
         body = place(self.joints, now) if self.joints else None
         motions, named = list[Affine | None](), {"": body}
