@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import pytest
-
 from tests.scenes.staged import SIZE
+
 from texvent_scenes.colours import SURFACES
 from texvent_scenes.models.materials import has_colour
 from texvent_scenes.models.nouns import NOUNS
