@@ -220,10 +220,14 @@ def _tell_place_of(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
     low = body.middle[at] - 0.5 * body.size[at]
     tied = ((each.object_index, each.track.anchor) for each in staged.scene.actors)
     carries = {n for n, anchor in tied if anchor is not None and anchor.carrier is one.track}
+    held_in = {(each.subject, n) for each in staged.description.relations
+               for n in each.targets if each.kind == "in"}  # fmt: skip
     for index, copies in enumerate(staged.boxes):
         for other in copies:
             if index not in carries and index != one.object_index and _bears(other, body, at):
-                return f"on the {_plain(staged.description.objects[index].noun)}"
+                is_low = body.middle[at, 2] < other.middle[at, 2] + 0.5 * other.size[at, 2]
+                way = "in" if is_low and (one.object_index, index) in held_in else "on"
+                return f"{way} the {_plain(staged.description.objects[index].noun)}"
     if inside := _find_holder(staged, one, body, at):
         return inside
     place = staged.scene.place

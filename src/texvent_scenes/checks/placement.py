@@ -20,7 +20,7 @@ from texvent_scenes.models.anchors import has_rim
 from texvent_scenes.models.nouns import AFLOAT
 from texvent_scenes.models.places import PlaceModel
 from texvent_scenes.models.shapes import bounds, moved
-from texvent_scenes.models.tables import nouns_with
+from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import (
     Environment,
     Float64Array,
@@ -246,6 +246,13 @@ class _Bodies:
         is_fixed = one.noun.habitat == "fixed" and one.size_m >= _HEAVY_M and not is_drawn
         free = _FREE - _AIRBORNE if is_fixed else _FREE
         is_free = is_drawn and any(motion.direction == "diagonal" for motion in said.motions)
+        riders = [
+            relation.subject
+            for relation in self._description.relations
+            if relation.kind in ("on", "ride") and one.object_index in relation.targets
+        ]
+        if trait_value("ridden", one.noun.name) == "on a board":  # it jumps with who is on it
+            does |= {motion.kind for n in riders for motion in self._description.objects[n].motions}
         is_free |= bool(does & free) or bool(acts & (_IN_HAND | ACTED) - {"push", "pull"})
         is_body = one.noun.speed_m_s > 0.0 or one.noun.is_working or one.noun.habitat == "fixed"
         is_body &= one.noun.name not in nouns_with("may hang")

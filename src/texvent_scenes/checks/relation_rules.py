@@ -119,6 +119,12 @@ def _is_contained(one: BodyBoxes, other: BodyBoxes) -> _Flags:
     return np.asarray(is_amid & is_below & is_above_floor & is_held)
 
 
+def _is_enclosed(one: BodyBoxes, other: BodyBoxes) -> _Flags:
+    """Whether it is in a container as `_is_contained`, and its top is below the rim."""
+    top_m = _clears(one, other, 0.5) + one.size[:, 2]
+    return np.asarray(_is_contained(one, other) & (top_m <= _PROTRUDING * one.size[:, 2]))
+
+
 def _clears(one: BodyBoxes, other: BodyBoxes, share: float) -> Float64Array:
     """[t] height of its lowest point above a level of the other, -0.5 below to 0.5 on top, m."""
     level = other.middle[:, 2] + share * other.size[:, 2]
@@ -362,7 +368,7 @@ RULES: Mapping[str, _Rule] = {
     "pull": lambda one, other: _is_near(one, other, 0.5),
     "act on": lambda one, other: _is_near(one, other, 0.1),
     "catch": lambda one, other: _is_near(one, other, 0.2)[-1:],
-    "contained": _is_contained, "hung": _is_hung,
+    "contained": _is_contained, "enclosed": _is_enclosed, "hung": _is_hung,
     "never": lambda one, other: np.zeros(1, dtype=np.bool_),
     "through an opening": _is_through,
     "through": lambda one, other: _is_passing(one, other) & _within(one, other, 2),

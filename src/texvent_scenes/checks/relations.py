@@ -35,8 +35,8 @@ _LEAST_GONE = 0.5
 """Least way across the image, in sizes of a body."""
 _ON_SIDES, _ASIDE = {"left": -1.0, "right": 1.0}, 0.05
 """Placement → side of the image; least tangent of the angle to its middle."""
-_LASTING = ("on", "in", "at", "with", "contained", "hung", "follow", "push", "pull", "act on",
-            "on a seat", "on a face", "facing")  # fmt: skip
+_LASTING = ("on", "in", "at", "with", "contained", "enclosed", "hung", "follow", "push", "pull",
+            "act on", "on a seat", "on a face", "facing")  # fmt: skip
 """Relations that hold at half of the instants at least, as places do of what stays; others hold at
 one instant."""
 _TOGETHER = (
@@ -225,7 +225,7 @@ def _rule_for(kind: str, who: SceneObject, what: SceneObject) -> str:
         is_swimmer = noun in NOUNS and NOUNS[noun].habitat == "water" and noun not in AFLOAT
         is_seen = target in nouns_with("see-through")
         is_out = target in nouns_with("lidded") or (is_swimmer and not is_seen)
-        return "never" if is_out else "contained"
+        return "never" if is_out else "enclosed" if is_seen else "contained"
     return _rule_on(who, what) if kind == "on" else kind
 
 
@@ -234,6 +234,10 @@ def _rule_on(who: SceneObject, what: SceneObject) -> str:
     if what.noun in nouns_with("swings"):
         return "on a seat"
     goes = bool(who.motions) and who.motions[0].kind in PATH_KINDS
+    if trait_value("slope", what.noun) is not None and any(
+        one.kind == "turn" for one in who.motions
+    ):
+        return "never"  # its way is level
     if goes and trait_value("slope", what.noun) is not None:
         return "on a slope"  # and past its foot
     if what.noun in nouns_with("of ground"):

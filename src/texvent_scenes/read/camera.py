@@ -374,10 +374,10 @@ def _go_along(draft: SceneDraft, clause: Clause, move: dict[str, Any], phrase: P
     token = phrase.preposition
     kind = next(iter(token.relations & _ALONGSIDE.keys()), "")
     is_meant = draft.beside(token, 1).has("pronouns")
+    is_meant |= not phrase.groups and move["kind"] == "follow"  # "follows behind"
     nouns = nouns_of(phrase.groups)
     goes = bool(nouns) and all(draft.nouns[one].speed_m_s for one in nouns)
-    able = ("follow",) if kind == "behind" else ("pan", "truck", "travel", "follow")
-    if not (kind and (is_meant or goes) and move["kind"] in able):
+    if not (kind and (is_meant or goes) and _can_go_along(draft, clause, move, kind)):
         return False
     about = [*draft.last.subjects, *draft.last.nearest, *range(len(draft.things))]
     found = [index for group in phrase.groups for index in name_group(draft, group)]
@@ -397,6 +397,15 @@ def _go_along(draft: SceneDraft, clause: Clause, move: dict[str, Any], phrase: P
     draft.show(token)
     draft.claim(token, "camera", "before", [None], led)
     return True
+
+
+def _can_go_along(draft: SceneDraft, clause: Clause, move: Mapping[str, Any], kind: str) -> bool:
+    """Whether a move may follow what goes; one on a road goes after vehicles in its own way."""
+    if move["kind"] == "static":
+        return (clause.verb or NO_TOKEN).text in word_set("things", "stays")
+    is_apart = move["kind"] == "travel" and not draft.is_driven and move.get("means") != "drive"
+    able = ("pan", "truck", "travel", "follow")
+    return move["kind"] == "follow" or is_apart if kind == "behind" else move["kind"] in able
 
 
 def _list_led(

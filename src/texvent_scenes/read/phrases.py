@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from texvent_scenes.models.activities import PERSON_NOUNS
-from texvent_scenes.models.tables import nouns_with, trait_values
+from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
 from texvent_scenes.read.draft.abilities import Indices
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.draft.setting import names_place, set_scene
@@ -102,7 +102,7 @@ def _choose_placed(
     if kind in ("in", "on") and acted and _fill_vessels(draft, phrase, subjects):
         return acted  # "arranges flowers in a vase"
     kinds = draft.acts(subjects)
-    if kind in (kinds if subjects else PLACING):
+    if kind in (kinds if subjects else PLACING) or (kind == "on" and _holds_it(draft, last, told)):
         return told
     if all(one.head and names_place(one.head, kind) for one in phrase.groups):
         return subjects
@@ -116,6 +116,12 @@ def _choose_placed(
     goes_off = draft.names(subjects) <= PERSON_NOUNS and any(map(draft.goes, subjects))
     is_passed |= before == "from" and goes_off  # "walks away from a bag on a chair"
     return told if kind in PLACING and is_passed else subjects
+
+
+def _holds_it(draft: SceneDraft, last: Token, told: Indices) -> bool:
+    """Whether the last phrase tells what one is in, which is put: "in a bowl on a table"."""
+    held_in = [trait_value("container", draft.things[one]["noun"]) for one in told]
+    return last.relation == "in" and bool(held_in) and None not in held_in
 
 
 def _is_of_place(draft: SceneDraft, phrase: Phrase) -> bool:

@@ -48,6 +48,25 @@ def test_a_view_of_a_side_holds_whichever_way_the_subject_heads(view, heading_de
     assert wrong == {"side", "front", "back"} - {view}
 
 
+@pytest.mark.parametrize(
+    ("text", "is_behind"),
+    [("the camera trails behind a jogger", True), ("a fox runs, the camera follows behind", True),
+     ("the camera flies behind an eagle", True), ("the camera stays with a skier", False),
+     ("the camera keeps pace with a horse galloping through a meadow", False),
+     ("a runner jogs in a park while the camera keeps up with her", False)],
+)  # fmt: skip
+def test_a_camera_that_keeps_with_somebody_goes_as_far_and_behind_if_so_said(text, is_behind):
+    scene, said, _ = staged(text)
+    body, (first, last) = scene.actors[0], (TIMES[0], TIMES[-1])
+    way = body.middle(last) - body.middle(first)
+    gone = scene.camera(last).position - scene.camera(first).position
+    assert np.linalg.norm((gone - way)[:2]) < 0.2 * np.linalg.norm(way)
+    to_body = body.middle(first) - scene.camera(first).position
+    ahead = (to_body @ way) / (np.linalg.norm(to_body) * np.linalg.norm(way))
+    assert (ahead > 0.7) == is_behind
+    assert said.is_faithful
+
+
 @pytest.mark.parametrize("kind", ["follow", "orbit", "pan", "dolly"])
 def test_a_move_holds_if_the_camera_moves(kind):
     said = Camera(moves=(CameraMove(kind),))

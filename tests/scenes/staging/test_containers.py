@@ -31,7 +31,8 @@ def lost_relations(said, scene):
     "text",
     ["three apples in a bowl", "a cat in a basket", "five eggs in a bowl", "a teddy bear in a box",
      "a spoon in a cup", "a ball rolls in a box", "a fish swims in an aquarium",
-     "a hamster runs in a cage", "a parrot sits in a cage"],
+     "a hamster runs in a cage", "a parrot sits in a cage", "a diver swims in an aquarium",
+     "a woman and two fish swim in a fish tank", "a man sits in a cage", "a shark in a tank"],
 )  # fmt: skip
 def test_what_is_in_a_container_is_between_its_sides_and_below_its_rim_all_along(text):
     said, scene = stage_text(text)
@@ -53,6 +54,30 @@ def test_a_thing_that_is_lifted_out_of_its_container_is_not_in_it(text):
     for one in things:
         scene = moved(scene, one, (0.0, 0.0, 1.01 * kept.corners(0.0)[:, 2].max()))
     assert lost_relations(said, scene) == ["in"]
+
+
+@pytest.mark.parametrize("text", ["a man in a cage", "a parrot in a cage", "a cat in an aquarium"])
+def test_what_stands_out_of_a_cage_or_an_aquarium_is_not_in_it(text):
+    said, scene = stage_text(text)
+    one, kept = scene.actors
+    raised = moved(scene, one, (0.0, 0.0, 0.9 * kept.corners(0.0)[:, 2].max()))
+    assert lost_relations(said, scene) == []
+    assert lost_relations(said, raised) == ["in"]
+
+
+@pytest.mark.parametrize(
+    ("text", "inner", "outer"),
+    [("a goldfish swims in a bowl on a table", "fish bowl", "table"),
+     ("a kitten sleeps in a basket on a sofa", "basket", "sofa"),
+     ("a mouse runs in a box on a bench", "box", "bench")],
+)  # fmt: skip
+def test_what_one_is_in_is_on_what_is_said_next(text, inner, outer):
+    said, scene = stage_text(text)
+    who, kept, below = scene.actors
+    assert [kept.noun.name, below.noun.name] == [inner, outer]
+    assert lost_relations(said, scene) == []
+    assert kept.corners(0.0)[:, 2].min() > 0.3 * below.corners(0.0)[:, 2].max()
+    assert who.corners(0.0)[:, 2].min() > kept.corners(0.0)[:, 2].min()
 
 
 @pytest.mark.parametrize(

@@ -129,6 +129,25 @@ def test_fish_swim_round_in_their_bowl_and_apart(text, noun, target):
 
 
 @pytest.mark.parametrize(
+    ("text", "held"),
+    [("a skateboarder jumps", ["ground"]), ("a skateboarder jumps over a bench", ["ground"]),
+     ("a skier jumps", ["ground", "right hand", "left hand"]),
+     ("a figure skater jumps", ["left foot", "right foot"]), ("a surfer jumps", []),
+     ("a skateboarder waves", []), ("a surfer walks", ["torso"])],
+)  # fmt: skip
+def test_who_jumps_is_on_what_is_usual_and_has_nothing_under_a_raised_arm(text, held):
+    assert [one.anchor for one in staged(text)[0].actors[0].props] == held
+
+
+@pytest.mark.parametrize("text", ["a man on a skateboard jumps", "a boy on a scooter jumps"])
+def test_a_board_jumps_with_who_is_on_it(text):
+    body = next(one for one in staged(text)[0].actors if one.noun.name in ("skateboard", "scooter"))
+    heights = [body.middle(at)[2] for at in np.linspace(0.0, CLIP_S, 25)]
+    assert np.ptp(heights) > 0.1
+    assert not faults(text)
+
+
+@pytest.mark.parametrize(
     ("text", "turns"),
     [("a skateboarder does a kickflip", True), ("a boy doing an ollie", False)],
 )

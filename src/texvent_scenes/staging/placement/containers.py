@@ -24,6 +24,12 @@ SEEN_SHARE, _ALIVE_SHARE = 0.6, 0.75
 above its head."""
 
 
+def swims(group: ObjectGroup) -> bool:
+    """Whether it keeps in the midst of water: a fish, a person who swims."""
+    kinds = {one.kind for one in group.scene_object.motions}
+    return group.noun.habitat == "water" or "swim" in kinds
+
+
 def reach_of(model: Model, count: int) -> float:
     """Extent along a row, in which several stand side by side, m."""
     sides = model.length, model.width
@@ -48,7 +54,8 @@ def depth_in(group: ObjectGroup, target: ObjectGroup) -> float:
     floor_m = (hollow[2] if hollow else 0.08) * body.height
     is_open = trait_value("drawn open", target.noun.name) is not None
     if target.noun.name in nouns_with("see-through"):
-        return 0.5 * (body.height - own.height) if group.noun.habitat == "water" else floor_m
+        tall_m = own.height if group.noun.habitat == "water" else own.width  # who swims lies
+        return 0.5 * (body.height - tall_m) if swims(group) else floor_m
     if is_open:
         return floor_m
     seen = SEEN_SHARE if group.noun.habitat == "fixed" else _ALIVE_SHARE
@@ -65,7 +72,8 @@ def go_inside(group: ObjectGroup, target: ObjectGroup, support: Support) -> None
         group.plan = replace(plan, motion=replace(plan.motion, kind="orbit"))
         return
     sides = np.subtract(support.high, support.low)
-    way_m = max(float(sides.max()) - 1.1 * max(own.length, own.width), 0.02)
+    own_m = max(own.length, own.width, own.height if swims(group) else 0.0)
+    way_m = max(float(sides.max()) - 1.1 * own_m, 0.02)
     speed = way_m / (0.5 * (1.0 - _TURN_SHARE) * plan.duration_s)
     turn_s, activity = _TURN_SHARE * plan.duration_s, activity_of(plan.motion.kind)
     going = Key(way_m / speed, speed, ramp_s=0.1 * plan.duration_s, activity=activity)
@@ -73,5 +81,7 @@ def go_inside(group: ObjectGroup, target: ObjectGroup, support: Support) -> None
     yaw = target.plan.yaw + 0.5 * math.pi * int(np.argmax(sides))
     path = Track((0.0, 0.0, 0.0), yaw, (replace(going, duration_s=0.0), going, *turn, going))
     path = centred(replace(path, radius_m=plan.radius_m), plan.duration_s)
+    if len(group.models) == 1:  # before those that stay
+        group.offsets = [(0.0, 0.0, 0.0)]
     group.plan = replace(plan, yaw=yaw, path=path, speed_m_s=speed)
     group.fit()

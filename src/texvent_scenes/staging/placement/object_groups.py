@@ -348,6 +348,8 @@ def find_gap(group: ObjectGroup) -> Float64Array:
 
 _ALIKE_M = 0.01
 """Difference of gaps that are as wide."""
+_ARMS_HANG = frozenset({"stand", "walk", "run", "move"})
+"""Acts in which somebody has something under an arm."""
 _SEAT_BACK_M = 0.03
 """Distance of the middle of a chair behind the hips."""
 
@@ -389,9 +391,13 @@ def choose_props(description: SceneDescription, group: ObjectGroup) -> tuple[Pro
     kinds = dict.fromkeys(motion.kind for motion in said)
     if group.plan.path is not None:  # as the way to a jump
         kinds |= dict.fromkeys(key.activity for key in group.plan.path.keys)
+    if "jump" in kinds:  # with what it is on as it usually goes
+        kinds[group.noun.motion] = None
     size = size_of(group.models[0])
     props = [prop for kind in kinds for prop in list_props(kind, size)]
-    props = props or list(HOLDS.get(group.noun.name, ()))
+    hangs = kinds.keys() <= _ARMS_HANG
+    props = props or [one for one in HOLDS.get(group.noun.name, ())
+                      if hangs or one.anchor != "torso"]  # fmt: skip
     if group.on_chairs and not shown.keys() & nouns_with("seat at a table"):
         props.append(_draw_chair(size))
     kept = (

@@ -412,10 +412,12 @@ def rest_in(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
             group.carrier = target
         low = 0.05 * target.models[0].height if target.noun.name in nouns_with("closed") else 0.0
         return target.to_world(0.0, 0.0, low + group.origin_m)
-    if trait_value("container", target.noun.name) and group.noun.name not in PERSON_NOUNS:
+    is_person = group.noun.name in PERSON_NOUNS
+    is_within = not is_person or target.noun.name in nouns_with("see-through")
+    if trait_value("container", target.noun.name) and is_within:
         return _put_in(group, target, neighbours)
     place = rest_on(group, target, neighbours)
-    if group.noun.name in PERSON_NOUNS or target.noun.habitat == "ground":
+    if is_person or target.noun.habitat == "ground":
         return place
     low = depth_in(group, target)
     return np.array([place[0], place[1], target.centre[2] + low + group.origin_m])

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from texvent_scenes.description import SceneDescription, label_of
+from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.protocol import Model, Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.staging.placement.containers import reach_of
@@ -91,13 +92,23 @@ class Sizes:
             inside = [r.subject for r in self._description.relations
                       if r.kind == "in" and r.targets[0] == one.targets[0]]  # fmt: skip
             models = [(self._build(n), objects[n].count) for n in inside]
-            whole, share = fit_in(self._build(one.targets[0]), hollow, models)
+            target = self._build(one.targets[0])
+            whole, share = fit_in(target, hollow, models)
+            lying = [self._build(n).height for n in inside if self._is_swimmer(n)]
+            if lying and objects[one.targets[0]].noun in nouns_with("see-through"):
+                side_m = min(hollow[0] * target.length, hollow[1] * target.width)
+                whole, share = max(whole, _ROOM * max(lying) / side_m), 1.0
             own = whole if index == one.targets[0] else share
             if abs(own - 1.0) <= _NOTED:
                 return own, []
             return own, [f"the {label_of(self._description, index)} is drawn at {own:.0%} of its "
                          "usual size, as one is in the other"]  # fmt: skip
         return 1.0, []
+
+    def _is_swimmer(self, index: int) -> bool:
+        """Whether it is a person who swims, for whom a tank is as large as it must be."""
+        said = self._description.objects[index]
+        return said.noun in PERSON_NOUNS and any(one.kind == "swim" for one in said.motions)
 
     def _fit_through(self, index: int) -> float:
         """Scale of a passage: a foot tunnel for those who are small."""
