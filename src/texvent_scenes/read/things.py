@@ -219,7 +219,8 @@ def _name_thing(draft: SceneDraft, group: Group, head: Token) -> list[int]:
     known = draft.find([noun.noun] if noun else ())
     known = known or (list_kinds(draft, head) if group.article == "the" else [])
     having = draft.find(word_table("parts").get(head.text, ()))
-    if group.article in owners | {"the", ""} and having:
+    apart = {""} if noun is None else set()  # "a cake and three candles"
+    if group.article in owners | {"the"} | apart and having:
         draft.show(head)
         claim_fine(draft, head, having[-1:])
         draft.claim(head, SEEN, "", having[-1:])

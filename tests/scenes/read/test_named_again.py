@@ -54,3 +54,16 @@ def test_one_of_several_copies_is_parted_by_its_colour():
 def test_a_verb_after_a_single_noun_is_no_plural(phrase):
     objects = understand(f"{phrase} stops at a church".capitalize(), NOUNS).objects
     assert [one.noun for one in objects] == ["tram", "church"]
+
+
+@pytest.mark.parametrize(
+    ("prompt", "nouns"),
+    [
+        ("A cake with five candles stands on a table.", {"five-candled cake", "table"}),
+        ("A birthday cake with three candles", {"three-candled cake"}),
+        ("A cake and three candles stand on a table.", {"cake", "candle", "table"}),
+        ("A cake with seven candles stands on a table.", {"cake", "table"}),
+    ],
+)
+def test_candles_of_a_cake_are_its_own_in_the_numbers_that_are_drawn(prompt, nouns):
+    assert {one.noun for one in understand(prompt, NOUNS).objects} == nouns
