@@ -228,9 +228,10 @@ def in_material(model: Model, name: str | None, colour: Colour | None) -> Model:
     return model if name is None else OverriddenModel(model, MATERIALS[name], colour)
 
 
-_NEAR, _LEAST_PART = 0.28, 0.06
-"""Distance of cube roots of linear RGB within which two colours have one name; least share of a
-body's surface that has a colour."""
+_NEAR, _HUED, _LEAST_PART = 0.28, 0.12, 0.06
+"""Distance of cube roots of linear RGB within which two colours have one name, and its standard
+deviation over the channels: a dark pane is not green; least share of a body's surface that has a
+colour."""
 _REPAINTED = 0.25
 """Share of a surface from which on the parts of one colour are painted in another."""
 
@@ -262,7 +263,8 @@ def colour_share(parts: Sequence[ModelPart], colour: Colour) -> float:
     def is_like(part: ModelPart) -> bool:
         both = [part.colour] if part.mesh is None else [mean_colour(part.mesh)]
         both += [] if part.texture is Texture.PLAIN else [part.second_colour]
-        return any(np.linalg.norm(np.cbrt(one) - np.cbrt(colour)) <= _NEAR for one in both)
+        gaps = (np.cbrt(one) - np.cbrt(colour) for one in both)
+        return any(np.linalg.norm(one) <= _NEAR and one.std() <= _HUED for one in gaps)
 
     return share_of(parts, is_like)
 

@@ -31,6 +31,7 @@ _QUANTITIES = ("rate_hz", "turns_hz", "blink_hz")
 """Fields of which each object has one."""
 _MEANT = {"circle": ("orbit", (*MEANS, "move", "orbit")), "stays": ("spin", ("turn",))}
 """Adverbs → the motion that some motions are by them: "turns on the spot"."""
+_REST = Pose(0.0, 0.0, 0.0, "stand")
 _CROWD = 5
 """Persons who are a crowd."""
 _ASIDE = ("left", "right", "across", "towards", "away")
@@ -38,15 +39,12 @@ _ASIDE = ("left", "right", "across", "towards", "away")
 
 
 def say_modifiers(draft: SceneDraft, group: Group, index: int) -> None:
-    """Apply adjectives; "a black and white football" has both colours by itself."""
-    own, noun = list[Token](), draft.things[index]["noun"]
+    """Apply adjectives; of several colours a body has the others by itself."""
     fields = ((one, one.first("field")) for one in group.modifiers)
     colours = {one: said.value[1] for one, said in fields
                if said is not None and said.value[0] == "colour"}  # fmt: skip
-    bodies = (draft.nouns[noun].build(colour=None, scale=1.0, seed=seed) for seed in range(3))
-    parts = [one.parts(Pose(0.0, 0.0, 0.0, "stand")) for one in bodies if len(colours) > 1]
-    if parts and all(has_colour(each, SURFACES[one]) for each in parts for one in colours.values()):
-        own = [*colours]
+    painted = _find_paint(draft, index, [*colours.values()])
+    own = [one for one, colour in colours.items() if painted and colour != painted[0]]
     sizes = _list_numbers(draft, group, index)
     for token in (one for one in group.modifiers if one not in sizes):
         if token in own:
@@ -66,6 +64,22 @@ def say_modifiers(draft: SceneDraft, group: Group, index: int) -> None:
         thing = draft.things[index]
         thing["count"] = max(2, round(thing["count"] * token.value("field")[1]))
         draft.show(token)
+
+
+def _find_paint(draft: SceneDraft, index: int, colours: Sequence[str]) -> list[str | None]:
+    """The colour to paint a body in so that it has all of several; none where no one does it.
+
+    "A black and white football" has both as it is, "a white and green tram" painted green.
+    """
+    noun = draft.nouns[draft.things[index]["noun"]]
+
+    def has_all(paint: str | None) -> bool:
+        rgb = None if paint is None else SURFACES[paint]
+        bodies = (noun.build(colour=rgb, scale=1.0, seed=seed).parts(_REST) for seed in range(3))
+        return all(has_colour(each, SURFACES[one]) for each in bodies for one in colours)
+
+    tried = (None, *colours) if len({*colours}) > 1 else ()
+    return next(([one] for one in tried if has_all(one)), [])
 
 
 def _list_numbers(draft: SceneDraft, group: Group, index: int) -> list[Token]:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from texvent_scenes.description import SEEN
 from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent_scenes.models.effects import LAMPS
+from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
 from texvent_scenes.read.draft.abilities import Indices
 from texvent_scenes.read.draft.copies import (
@@ -41,6 +42,8 @@ def pick_group(draft: SceneDraft, group: Group, known: int) -> list[int]:
 
     What is named again is one of the first `known` things: "four teenagers play, one player".
     """
+    if again := _find_hued(draft, group, known):
+        return again
     whole = find_whole_of(draft, group, known)
     for each in group.of.groups if group.of is not None and group.picks else ():
         whole += name_group(draft, each)  # "two of the dogs"
@@ -65,6 +68,21 @@ def pick_group(draft: SceneDraft, group: Group, known: int) -> list[int]:
     return picked
 
 
+def _find_hued(draft: SceneDraft, group: Group, known: int) -> list[int]:
+    """One of several things that its colour names again: "the red one" of two balls."""
+    hues = [one for one in group.unknown if one.says("field", "colour")]
+    things = draft.things[:known] if hues and (group.article, group.picks) == ("the", "one") else []
+    values = {one.value("field")[1] for one in hues}
+    found = [n for n, one in enumerate(things) if {one.get("colour")} == values]
+    like = [n for n, one in enumerate(things) if found and one["noun"] == things[found[0]]["noun"]]
+    if len(found) != 1 or len(like) < 2:
+        return []
+    draft.left = [one for one in like if one not in found]  # "the other one"
+    draft.show(*group.unknown)
+    draft.last.nearest = found
+    return found
+
+
 def name_group(
     draft: SceneDraft, group: Group, relation: str = "", owners: Indices = ()
 ) -> list[int]:
@@ -87,10 +105,10 @@ def name_group(
         draft.claim(head, SEEN, "", found)
         return found if relation else []  # what a part does, the whole does not
     elif head is not None and head.has("noun", "pose"):
-        found = _pose_again(draft, group, head) or _find_all_of(draft, group, head)
+        found = _pose_again(draft, group, head) or _find_all_of(draft, group)
         if not (found or head.at in draft.fates):
             found = _name_thing(draft, group, head)
-    else:
+    elif not (found := _find_all_of(draft, group) if head is None else []):
         _name_others(draft, group, relation, owners)
     phrase = group.of or Phrase(head or NO_TOKEN, ())
     for content in phrase.groups:
@@ -156,23 +174,44 @@ def _fill(draft: SceneDraft, vessels: Indices, content: Group, token: Token) -> 
             draft.show(token)
 
 
-def _find_all_of(draft: SceneDraft, group: Group, head: Token) -> list[int]:
-    """All things that a group counts again: "both balls" of two kinds, "the two men"."""
-    counts = [(one, one.value("field")[1]) for one in group.modifiers if one.says("field", "count")]
-    is_again = group.article == "the" or any(one.text == "both" for one, _ in counts)
-    if not (counts and is_again and len(counts) == len(group.modifiers) and group.is_plural):
+def _find_all_of(draft: SceneDraft, group: Group) -> list[int]:
+    """All things that a group names again: "both balls" of two kinds, "the vehicles", "the two"."""
+    counts = [one for one in group.words if one.says("field", "count")]
+    named = [one for one in group.words if one not in counts]
+    is_again = group.article == "the" or any(one.text == "both" for one in counts)
+    if not is_again or len(named) > 1 or group.of is not None:
         return []
-    kinds = (one for name, one in word_table("general").items() if head.text in list_plurals(name))
-    nouns = head.nouns.union(*kinds)
-    for like in (nouns, PERSON_NOUNS if nouns & PERSON_NOUNS else set()):
-        found = draft.find(like)
-        if sum(draft.things[one]["count"] for one in found) == counts[0][1]:
-            draft.show(head, *(one for one, _ in counts))
-            for token, count in counts:
-                draft.claim(token, SEEN, count, found)
+    for found, is_wide in _list_alike(draft, named[0] if named else NO_TOKEN):
+        number = sum(draft.things[one]["count"] for one in found)
+        if counts[0].value("field")[1] == number if counts else is_wide and found[1:]:
+            draft.show(*named, *counts)
+            for token in counts:
+                draft.claim(token, SEEN, token.value("field")[1], found)
             draft.last.nearest = found
             return found
     return []
+
+
+def _list_alike(draft: SceneDraft, head: Token) -> Iterator[tuple[list[int], bool]]:
+    """Things that a plural may mean, and whether it is a word for things of several nouns."""
+    if head is NO_TOKEN:
+        yield draft.last.subjects, False
+        return
+    kinds = (one for name, one in word_table("general").items() if head.text in list_plurals(name))
+    nouns = head.nouns.union(*kinds)
+    yield draft.find(nouns), False
+    yield draft.find(PERSON_NOUNS if nouns & PERSON_NOUNS else ()), False
+    if head.text in word_set("things", "wide"):
+        is_so = _WIDE[head.text]
+        yield [n for n in range(len(draft.things)) if is_so(draft.noun(n))], True
+
+
+_WIDE: Mapping[str, Callable[[Noun], bool]] = {
+    "animals": lambda noun: bool(noun.acts) or noun.motion == "swim",
+    "people": lambda noun: noun.name in PERSON_NOUNS,
+    "vehicles": lambda noun: noun.motion == "drive",
+}
+"""Words for things of several nouns, and which these are."""
 
 
 def _name_thing(draft: SceneDraft, group: Group, head: Token) -> list[int]:
@@ -180,7 +219,8 @@ def _name_thing(draft: SceneDraft, group: Group, head: Token) -> list[int]:
     known = draft.find([noun.noun] if noun else ())
     known = known or (list_kinds(draft, head) if group.article == "the" else [])
     having = draft.find(word_table("parts").get(head.text, ()))
-    if group.article in owners | {"the", ""} and having:
+    apart = {""} if noun is None else set()  # "a cake and three candles"
+    if group.article in owners | {"the"} | apart and having:
         draft.show(head)
         claim_fine(draft, head, having[-1:])
         draft.claim(head, SEEN, "", having[-1:])
@@ -194,13 +234,16 @@ def _name_thing(draft: SceneDraft, group: Group, head: Token) -> list[int]:
         return _name_members(draft, group, head, members)
     draft.show(head)
     unknown = {one.text for one in group.unknown} - word_set("things", "wholes")
-    is_plain = not group.modifiers and not unknown
+    hues = [one.value("field")[1] for one in group.modifiers if one.says("field", "colour")]
+    is_plain = len(hues) == len(group.modifiers) and not unknown
     is_either = head.text in list_plurals(head.text)  # "the fish", one or more
     same = [n for n in known if is_either or group.is_plural == (draft.things[n]["count"] > 1)]
     if len(known) > len(same):  # "the player", of a player and two defenders
         same = [n for n in same if draft.things[n].get("word", "").endswith(head.text)] or same
+    same = [n for n in same if all(draft.things[n].get("colour") == one for one in hues)]
     if same and is_plain and is_again(draft, group, head, same[-1]):
-        draft.last.nearest = same[-1:]  # "the car", where there is one
+        draft.last.nearest = same[-1:]  # "the car", where there is one, "the red car"
+        draft.show(*group.modifiers)
         return same[-1:]
     draft.last.nearest = [_add_thing(draft, group, head)]
     return draft.last.nearest

@@ -308,6 +308,7 @@ class _Parser(GroupReader):
         is_open = clause.is_plural or (before == "to" and self._token(-2).has("style"))
         is_named = forms == {"base"} and self._token(-1).has("articles", "field")  # "a big wave"
         is_named &= " " not in before  # "trucks with headlights drive"
+        is_named &= not self._token(-1).says("field", "count")  # "the two run"
         if not forms or is_named or (forms == {"base"} and not is_open):  # "starts to spin"
             return False
         if token.has("noun", "effect", "place", "scene", "field"):

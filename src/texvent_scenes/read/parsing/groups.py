@@ -97,7 +97,8 @@ class Group:
     def is_plural(self) -> bool:
         """Whether it names several things: "two dogs", "fish"."""
         counts = [count for one in self.modifiers for count in _counts(one)]
-        parts = [one.text for one in self.unknown if one.text in word_table("parts")]
+        named = word_table("parts").keys() | word_set("things", "wide")
+        parts = [one.text for one in self.unknown if one.text in named]
         if counts or self.head is None:
             is_many = any(count > 1 for count in (*counts, self.count)) or self.picks == "others"
             return is_many or any(one.endswith("s") for one in parts)

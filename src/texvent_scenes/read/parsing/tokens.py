@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 import unicodedata
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -382,7 +383,9 @@ def _without_chance(
     )
     is_placed = after == "of" and words[end].casefold() == "front"  # "a car in front of a house"
     is_many = bool(before) and before[-1].text.endswith(" of")  # "a stack of cardboard boxes"
-    is_single = any(one.text in ("a", "an") for one in before[-2:]) and not is_many
+    led = itertools.takewhile(lambda one: one.has("field") or one.text == "and", reversed(before))
+    article = before[-2 - len([*led]) :]  # "a green and white tram stops"
+    is_single = any(one.text in ("a", "an") for one in article) and not is_many
     is_of_camera = not before or before[-1].is_sign or any(
         one.has("camera") or one.text.endswith("shot") for one in before[-9:])  # fmt: skip
     return tuple(

@@ -1,0 +1,69 @@
+"""Things that are named again by words for several, and by their colour."""
+
+import pytest
+
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.scene_input import understand
+
+
+@pytest.mark.parametrize(
+    ("prompt", "going"),
+    [
+        ("A truck and a car stand at a traffic light. The vehicles pull away.", {"truck", "car"}),
+        ("A truck and a bus stand on a road. Both vehicles pull away.", {"truck", "bus"}),
+        ("A dog and a cat sit on a lawn. Both animals run away.", {"dog", "cat"}),
+        ("A dog, a cat and a man sit on a lawn. The animals run away.", {"dog", "cat"}),
+        ("A horse, a dog and a man stand on a lawn. The man runs away.", {"man"}),
+        ("A bus and a taxi wait at a bus stop, then the two drive off.", {"bus", "taxi"}),
+        ("A bus and a taxi wait at a bus stop, then both drive off.", {"bus", "taxi"}),
+        ("A dog sits on a lawn. The animals run away.", set()),
+    ],
+)
+def test_a_word_for_several_nouns_means_all_that_it_names(prompt, going):
+    objects = understand(prompt, NOUNS).objects
+    assert {one.noun for one in objects if one.motions[-1].direction == "away"} == going
+    assert all(one.count == 1 for one in objects)
+
+
+@pytest.mark.parametrize(
+    ("prompt", "ways"),
+    [
+        ("A red ball lies on the floor. The red ball rolls away.", {"red": "away"}),
+        (
+            "A red ball and a blue ball lie on the floor. The blue one rolls away.",
+            {"red": None, "blue": "away"},
+        ),
+        (
+            "A black dog and a white dog sit on a lawn. The white one stays, the other runs away.",
+            {"white": None, "black": "away"},
+        ),
+    ],
+)
+def test_a_colour_names_one_of_several_again(prompt, ways):
+    objects = understand(prompt, NOUNS).objects
+    assert {one.colour: one.motions[-1].direction for one in objects} == ways
+    assert len(objects) == len(ways)
+
+
+def test_one_of_several_copies_is_parted_by_its_colour():
+    objects = understand("Two cars stand on a road. The red one drives off.", NOUNS).objects
+    assert [(one.count, one.colour) for one in objects] == [(1, None), (1, "red")]
+
+
+@pytest.mark.parametrize("phrase", ["a tram", "a green tram", "a green and white tram"])
+def test_a_verb_after_a_single_noun_is_no_plural(phrase):
+    objects = understand(f"{phrase} stops at a church".capitalize(), NOUNS).objects
+    assert [one.noun for one in objects] == ["tram", "church"]
+
+
+@pytest.mark.parametrize(
+    ("prompt", "nouns"),
+    [
+        ("A cake with five candles stands on a table.", {"five-candled cake", "table"}),
+        ("A birthday cake with three candles", {"three-candled cake"}),
+        ("A cake and three candles stand on a table.", {"cake", "candle", "table"}),
+        ("A cake with seven candles stands on a table.", {"cake", "table"}),
+    ],
+)
+def test_candles_of_a_cake_are_its_own_in_the_numbers_that_are_drawn(prompt, nouns):
+    assert {one.noun for one in understand(prompt, NOUNS).objects} == nouns
