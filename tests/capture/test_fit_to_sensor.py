@@ -101,6 +101,8 @@ def test_motion_fits_wherever_pixels_do(width, height, new_width, new_height, fi
     centres = (np.argwhere(inside)[:, ::-1] + 0.5 - shift) / scale
     own = np.stack([fitted.instance, fitted.depth - 1], axis=-1)[inside] + 0.5
     assert np.abs(centres - own).max(initial=0) <= 0.5 + 1e-6
+    # A vector of the old pixel (x, y), here itself (x, y), is as much longer as the picture is.
+    np.testing.assert_allclose(fitted.forward[inside], (own - 0.5) * scale, rtol=1e-6)
 
 
 @given(sides, sides, sides, sides, st.sampled_from(["cover", "contain", "stretch"]))

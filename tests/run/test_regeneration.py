@@ -12,11 +12,13 @@ import texvent
 from texvent.cli.event_files.convert import ConvertOptions, edit
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
+from texvent.generation.subjects import describe_subject, stored_subject
 from texvent.pipeline import text_to_events
 from texvent.run.regeneration import render_again
 from texvent.settings.resolution import resolve
 from texvent_scenes.procedural import ProceduralVideo
 from texvent_scenes.spec.files import load_scene
+from texvent_scenes.spec.scene import Scene, SceneObject
 
 OPTIONS = {"duration": 0.2, "fps": 10, "sensor": "48x36", "seed": 4, "samples": 1}
 
@@ -39,6 +41,15 @@ def test_a_generated_recording_is_filmed_again_from_its_provenance(seed, seed_of
     for first, second in zip(simulation.video, again, strict=True):
         assert first.t_us == second.t_us
         np.testing.assert_array_equal(first.pixels, second.pixels)
+
+
+@pytest.mark.parametrize("prompt", ["", "a blue cube falls"])
+def test_a_stored_scene_stands_for_itself_whatever_its_prompt_says(prompt):
+    scene = Scene(prompt=prompt, objects=(SceneObject("ball", colour="red"),))
+    facts = json.loads(json.dumps(describe_subject(scene)))
+    assert stored_subject(facts) == scene
+    assert stored_subject({"prompt": prompt or "a cube"}) == (prompt or "a cube")
+    assert stored_subject({}) is None
 
 
 @pytest.mark.parametrize(
