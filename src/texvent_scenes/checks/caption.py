@@ -246,7 +246,7 @@ def _tell_place_of(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
 
 
 def _tell_carrier(staged: StagedClip, one: Actor, time_s: float) -> str:
-    """What has it at an instant, by its relation: in a hand, on a body; "" = nothing does."""
+    """Carrier at an instant, by its relation: in a hand, on a body; "" = there is none."""
     anchor = one.track.anchor
     carriers = [] if anchor is None else [
         other for other in staged.scene.actors if other.track is anchor.carrier
