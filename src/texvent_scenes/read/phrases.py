@@ -144,7 +144,7 @@ def _find_aimed(draft: SceneDraft, phrase: Phrase, last: Token, subjects: Indice
 
 
 def _find_doers(draft: SceneDraft, phrase: Phrase, subjects: Indices) -> list[int]:
-    """Who do something that is not known with what they hold: "tightens a bolt with a wrench"."""
+    """Subjects that do something unknown with what they hold: "tightens a bolt with a wrench"."""
     is_tool = {*nouns_of(phrase.groups)} <= SMALL and phrase.preposition.relation == "with"
     doers = draft.last.subjects if is_tool and not subjects else []
     return [one for one in doers if draft.things[one].get("is_lost")]
