@@ -254,7 +254,7 @@ class StoredClips:
         >>> from pathlib import Path
         >>> import texvent
         >>> sources = (texvent.dataset.SampleSource(prompts=("a red ball bounces",)),)
-        >>> options = {"sensor": "32x24", "duration": 0.2}
+        >>> options = {"sensor": "64x48", "duration": 0.2}
         >>> balls = texvent.dataset.Specification(name="balls", sources=sources, options=options)
         >>> work = texvent.dataset.make(balls, "balls", progress=False)
         >>> len(texvent.training.StoredClips(Path("balls")))

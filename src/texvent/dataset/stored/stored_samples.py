@@ -56,12 +56,12 @@ def open(
     Example:
         >>> import texvent
         >>> sources = (texvent.dataset.SampleSource(prompts=("a red ball bounces",)),)
-        >>> options = {"sensor": "32x24", "duration": 0.2}
+        >>> options = {"sensor": "64x48", "duration": 0.2}
         >>> balls = texvent.dataset.Specification(name="balls", sources=sources, options=options)
         >>> work = texvent.dataset.make(balls, "balls", progress=False)
         >>> samples = texvent.dataset.open("balls", representation="voxel-e2vid")
         >>> len(samples), samples.make(0)["representation"].shape
-        (1, (5, 24, 32))
+        (1, (5, 48, 64))
     """
     dataset = StoredDataset.open(Path(folder))
     index = read_index(dataset, variant=variant, split=split)
@@ -91,12 +91,12 @@ class StoredSample:
     Example:
         >>> import texvent
         >>> sources = (texvent.dataset.SampleSource(prompts=("a red ball bounces",)),)
-        >>> options = {"sensor": "32x24", "duration": 0.2}
+        >>> options = {"sensor": "64x48", "duration": 0.2}
         >>> balls = texvent.dataset.Specification(name="balls", sources=sources, options=options)
         >>> work = texvent.dataset.make(balls, "balls", progress=False)
         >>> sample = texvent.dataset.open("balls")[0]
         >>> sample.caption, sample.split, sample.events.size
-        ('a red ball bounces', 'train', SensorSize(width=32, height=24))
+        ('a red ball bounces', 'train', SensorSize(width=64, height=48))
     """
 
     key: str
@@ -141,7 +141,7 @@ class StoredSamples(SampleTable):
     Example:
         >>> import texvent
         >>> sources = (texvent.dataset.SampleSource(prompts=("a red ball bounces",)),)
-        >>> options = {"sensor": "32x24", "duration": 0.2}
+        >>> options = {"sensor": "64x48", "duration": 0.2}
         >>> balls = texvent.dataset.Specification(name="balls", sources=sources, options=options)
         >>> work = texvent.dataset.make(balls, "balls", progress=False)
         >>> samples = texvent.dataset.open("balls")
