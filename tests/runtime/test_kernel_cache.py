@@ -65,8 +65,8 @@ def test_a_later_process_reads_what_an_earlier_one_compiled(module):
 
 def test_a_kernel_is_compiled_anew_where_one_of_another_package_of_texvent_changed(module):
     """As a plug-in's, which calls those of texvent_scenes."""
-    (module / "kernels.py").write_text(KERNELS.replace(
-        "@jit\n", "from texvent_more.inner import twice\n\n@jit\n").replace("2 * x", "twice(x)"))  # fmt: skip
+    head = "from texvent_more.inner import twice\n"
+    (module / "kernels.py").write_text(head + KERNELS.replace("2 * x", "twice(x)"))
     (module / "texvent_more").mkdir()
     inner = "from texvent.runtime.jit import jit\n\n@jit\ndef twice(x):\n    return {} * x\n"
     words = [sys.executable, "-c", "import kernels; print(*kernels.FOUND)"]
