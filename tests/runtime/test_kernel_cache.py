@@ -63,6 +63,21 @@ def test_a_later_process_reads_what_an_earlier_one_compiled(module):
     assert said == ["8 0\n", "8 1\n"]
 
 
+def test_a_kernel_is_compiled_anew_where_one_of_another_package_of_texvent_changed(module):
+    """As a plug-in's, which calls those of texvent_scenes."""
+    head = "from texvent_more.inner import twice\n"
+    (module / "kernels.py").write_text(head + KERNELS.replace("2 * x", "twice(x)"))
+    (module / "texvent_more").mkdir()
+    inner = "from texvent.runtime.jit import jit\n\n@jit\ndef twice(x):\n    return {} * x\n"
+    words = [sys.executable, "-c", "import kernels; print(*kernels.FOUND)"]
+    paths = {"PYTHONPATH": f"{module}{os.pathsep}{SOURCE}", "PYTHONDONTWRITEBYTECODE": "1"}
+    said = []
+    for factor in (2, 2, 3):
+        (module / "texvent_more" / "inner.py").write_text(inner.format(factor))
+        said.append(subprocess.check_output(words, env=os.environ | paths, text=True))
+    assert said == ["8 0\n", "8 1\n", "12 0\n"]
+
+
 def without_folders(module):
     """Put files where Numba would make its folders: not even root can."""
     (module / "__pycache__").write_text("")

@@ -184,14 +184,17 @@ class _KernelFiles(IndexDataCacheFile):
 
 @functools.cache
 def _stamp(module: str) -> str:
-    """Digest of the files that a module consists of: its own and those that it imports."""
-    packages = {_package(module), _package(__name__)}
+    """Digest of the files that a module consists of: its own and those that it imports.
+
+    Of other packages than its own, those of texvent count: texvent, texvent_scenes, texvent_lab.
+    """
     digests: dict[str, str] = {}
     pending = [module]
     while pending:
         name = pending.pop()
         path = getattr(sys.modules.get(name), "__file__", None)
-        if path is not None and name not in digests and _package(name) in packages:
+        is_own = _package(name) == _package(module) or _package(name).startswith(_package(__name__))
+        if path is not None and name not in digests and is_own:
             digests[name], imported = _read(name, path)
             pending += imported
     return hashlib.sha256(repr(sorted(digests.items())).encode()).hexdigest()

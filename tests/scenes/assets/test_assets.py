@@ -192,6 +192,14 @@ def test_an_asset_takes_the_place_of_the_embedded_noun_and_its_habits(tmp_path):
     assert said.count("car") == 1
 
 
+@pytest.mark.parametrize("name", ["Lamp.GLB", "lamp.Glb", "lamp.glb"])
+def test_endings_of_models_may_be_in_capitals(tmp_path, name):
+    write_bar(tmp_path / name)
+    (asset,) = read_folder(tmp_path)
+    assert asset.path == tmp_path / name
+    assert load_model(asset).length > 0.0
+
+
 def test_an_index_names_sizes_and_turns(tmp_path):
     write_bar(tmp_path / "m_17.glb")
     (tmp_path / "assets.toml").write_text(

@@ -185,6 +185,12 @@ def test_drawn_frames_are_shown_as_stored_ones_with_what_was_asked_for(fps: Frac
         during.append([[one.t_us for one in beside.frames_during(each)] for each in extents])
     assert shown[0] == shown[1]
     assert during[0] == during[1]
+    for step in (1, 5, 11):  # windows are shorter or longer than what a frame is shown for
+        seldom = instants[::step]
+        beside = SourceOverlay(KnownVideo(pixels, times, fps), "none", size=SHOWN)
+        windows = beside.add_frames(EventWindow(t, t + 1, counts) for t in seldom)
+        last = [max(sum(t_us <= t for t_us in times) - 1, 0) for t in seldom]
+        assert [int(one.image.mean()) for one in windows] == [20 * one for one in last]
     window = EventWindow(0, 1, counts)
     for overlay, boxes in (("none", 0), ("boxes", 1), ("flow", 0)):
         seen = SourceOverlay(video(), overlay, size=SHOWN).add_annotations(window).annotations

@@ -26,7 +26,7 @@ from texvent_scenes.mesh import (
     triangle_normals,
 )
 from texvent_scenes.raycast.ground_truth import ground_truth
-from texvent_scenes.raycast.meshes.hit import hit_mesh
+from texvent_scenes.raycast.meshes.hit import hit_mesh, mesh_normals
 from texvent_scenes.raycast.meshes.tree import join_labels, tree_of
 from texvent_scenes.raycast.render import world_at
 
@@ -181,6 +181,37 @@ def test_smooth_normals_are_those_of_the_surface_that_triangles_stand_for(half, 
     gradient = normals / np.array(half)
     gradient /= np.linalg.norm(gradient, axis=2, keepdims=True)
     np.testing.assert_allclose(turned, gradient, atol=1e-5)
+
+
+@jit(error_model="numpy")
+def normals_of(instants, triangles, points, smooth, flat):
+    for k in range(len(points)):
+        point = (points[k, 0], points[k, 1], points[k, 2])
+        smooth[k], flat[k] = mesh_normals(instants[0], 0, triangles[k], point)
+
+
+@given(seed=st.integers(0, 2**31), half=st.tuples(*3 * [st.floats(0.3, 3.0)]))
+@examples(12)
+def test_a_normal_between_corners_is_the_mean_of_theirs_by_area(seed, half):
+    rng = np.random.default_rng(seed)
+    corners = rng.normal(size=(20, 3, 3))
+    normals = rng.normal(size=(20, 3, 3)).astype(np.float32)
+    mesh, _ = make_mesh(corners.reshape(-1, 3), np.arange(60).reshape(20, 3), normals=normals)
+    scene = MeshScene((mesh, np.hstack([np.diag(half), np.zeros((3, 1))])))
+    tree, (to_world,) = tree_of(mesh), scene.primitives(0.0).to_world
+    weights = rng.dirichlet(np.ones(3), size=20)
+    inner = np.einsum("tc,tcx->tx", weights, tree.triangles["corner"])
+    points = inner @ to_world[:, :3].T + to_world[:, 3]
+    found = [np.empty((20, 3)), np.empty((20, 3))]
+    normals_of(world_at(scene, 0.0, SIZE).instant, np.arange(20), points, *found)
+    a, b, c = np.moveaxis(tree.triangles["corner"], 1, 0)
+    mixed = np.einsum("tc,tcx->tx", weights, tree.triangles["normal"].astype(float))
+    expected = [one @ np.linalg.inv(to_world[:, :3]) for one in (mixed, np.cross(b - a, c - a))]
+    smooth, flat = (one / np.linalg.norm(one, axis=1, keepdims=True) for one in expected)
+    flat *= np.sign(((scene.camera(0.0).position - points) * flat).sum(axis=1, keepdims=True))
+    smooth *= np.sign((smooth * flat).sum(axis=1, keepdims=True))
+    np.testing.assert_allclose(found[0], smooth, atol=1e-5)
+    np.testing.assert_allclose(found[1], flat, atol=1e-5)
 
 
 @pytest.mark.parametrize("crease", [40.0, 25.0])
