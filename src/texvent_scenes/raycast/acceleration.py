@@ -41,6 +41,8 @@ NEAR_M = 0.02
 """Nothing nearer to the camera than this is seen, metres."""
 WINDOW_MARGIN_PX = 2.0
 """Added around the part of the image where a shape may be seen: room for widened thin shapes."""
+ROUNDING_PX = 0.01
+"""What of it is for rounding: beyond, no ray meets the shape itself."""
 THIN_PROBES = 0.8
 """Shapes whose half-thickness is below this many probe distances could slip between the probes;
 they are looked for with a wider net."""
@@ -228,7 +230,7 @@ def build_world(
     inverse, exists = invert_maps(np.asarray(primitives.to_world, dtype=np.float64))
     shapes["inverse"] = inverse
     shapes["sun"] = inverse[:, :, :3] @ instant["sun"][0]
-    wanted = _describe_view(shapes, primitives, rays, plane, samples)
+    wanted = _describe_view(instant, shapes, primitives, rays, plane, samples)
     corner = instant["plane_corner"][0][[0, 0, 1, 1]]
     tiles = _tile_lists(shapes["window"] - corner, shapes["depth"], exists, plane.size)
     casts = exists & (np.asarray(primitives.emission) <= 0.0) & (instant["shadows"] != 0)
@@ -248,9 +250,16 @@ def build_world(
 
 
 def _describe_view(
-    shapes: NDArray[Any], primitives: Primitives, rays: Rays, plane: ImagePlane, samples: int
+    instant: NDArray[Any],
+    shapes: NDArray[Any],
+    primitives: Primitives,
+    rays: Rays,
+    plane: ImagePlane,
+    samples: int,
 ) -> Float64Array:
     """Write how shapes stand before the camera, by their inverse maps and extents in the records.
+
+    The instant's record has what of a window's margin only thin shapes need.
 
     Returns:
         [n] widths that thin shapes are widened to, m.
@@ -262,6 +271,7 @@ def _describe_view(
     shapes["kind"] = primitives.shape
     shapes["eye"] = inverse[:, :, :3] @ rays.origin + inverse[:, :, 3]
     shapes["depth"] = depth
+    instant["window_edge"] = margin - plane.coarsest_step * ROUNDING_PX
     shapes["window"] = bounds + margin * np.array([-1.0, 1.0, -1.0, 1.0])
     wanted = _wanted_widths(primitives, rays, plane.coarsest_angle * THIN_PROBES / samples)
     shapes["shrink"] = np.minimum(shapes["extent"] / wanted[:, None], 1.0)

@@ -24,10 +24,12 @@ from texvent_scenes.raycast.records import Record
 from texvent_scenes.raycast.shading.lighting import shade_hit
 from texvent_scenes.raycast.trace import (
     CODES,
+    Listed,
     background_hit,
-    first_hit,
+    first_listed,
     hit_again,
     ray_direction,
+    shapes_near,
     shows_code,
     surface_code,
 )
@@ -41,10 +43,18 @@ UNKNOWN = -(1 << 41)
 _NEEDED = -(1 << 42)
 """Value of lattice points that are yet to be probed."""
 Codes = NDArray[np.int64]
+Kept = tuple[NDArray[np.int64], Float64Array]
+"""Found in a tile for pixels that share a border: [n, n, 7], for each lattice point its probe where
+it took over another, then, of the lines to the right and down, both ends' probes and the one
+beyond the first edge; and [n, n, 2], places of these edges on their lines."""
 _BISECTIONS = 6
 """Steps that place an edge between two probes: to 1/128 pixel with two probes per pixel side."""
 _MAX_EDGES = 4
 """Edges that are placed between two neighbouring probes."""
+_BLOCK = 4
+"""Side of the blocks of pixels whose shapes are listed before they are probed."""
+_MOST_NEAR = 256
+"""Shapes of a pixel or a block that are listed; where there are more, all of its tile are."""
 _MAX_SURFACES = 64
 """Surfaces that may share a pixel."""
 _SOFT_CLIP_START = 0.75
@@ -52,10 +62,10 @@ _SOFT_CLIP_START = 0.75
 
 
 @jit(error_model="numpy", inner=True)
-def _probe(instant: Record, x: float, y: float) -> int:
+def _probe(instant: Record, x: float, y: float, listed: Listed) -> int:
     """Probe of image point (x, y): surface code and light bits of the first hit, in one int."""
-    depth, number, face, _ = first_hit(instant, x, y)
-    lit = lit_by(instant, x, y, (depth, number, face), ALL_LIGHTS)[0]
+    depth, number, face, _ = first_listed(instant, x, y, listed, False)
+    lit = lit_by(instant, x, y, (depth, number, face), ALL_LIGHTS, False)[0]
     return (surface_code(instant, number, face) << LIT_BITS) + lit
 
 
@@ -138,13 +148,18 @@ def _mean_light(instant: Record, shares: Float64Array, count: int) -> Colour:
 
 @jit(error_model="numpy", inner=True)
 def _sample_pixel(
-    instant: Record, column: int, row: int, pattern: Float64Array, shares: Float64Array
+    instant: Record,
+    column: int,
+    row: int,
+    pattern: Float64Array,
+    shares: Float64Array,
+    listed: Listed,
 ) -> Colour:
     """Mean light over a pixel with something thin in it, from the samples of `pattern`."""
     count = 0
     for index in range(len(pattern)):
         x, y = column + pattern[index, 0], row + pattern[index, 1]
-        count = _add_share(shares, count, _probe(instant, x, y), 1.0, (x, y))
+        count = _add_share(shares, count, _probe(instant, x, y, listed), 1.0, (x, y))
     return _mean_light(instant, shares, count)
 
 
@@ -161,6 +176,7 @@ def _find_edge(
     ends: tuple[tuple[float, float], tuple[float, float]],
     low: float,
     probes: tuple[int, int],
+    listed: Listed,
 ) -> tuple[float, int]:
     """First edge on a line that begins on the surface `probes[0]`: its place, and the next probe.
 
@@ -172,11 +188,11 @@ def _find_edge(
     for _ in range(_BISECTIONS):
         middle = 0.5 * (low + high)
         x, y = _between(ends[0], ends[1], middle)
-        depth, number, face, _ = first_hit(instant, x, y)
+        depth, number, face, _ = first_listed(instant, x, y, listed, False)
         code = surface_code(instant, number, face)
         reached = probes[0] & changed
         if code == surface and changed:  # else there is no need to know about shadow
-            reached = lit_by(instant, x, y, (depth, number, face), changed)[0] & changed
+            reached = lit_by(instant, x, y, (depth, number, face), changed, False)[0] & changed
         if code == surface and reached == probes[0] & changed:
             low = middle
         else:
@@ -187,7 +203,7 @@ def _find_edge(
         is_other = beyond >> LIT_BITS != probes[1] >> LIT_BITS
         lamps = (probes[0] ^ probes[1]) & ALL_LIGHTS & ~SUN
         wanted = ALL_LIGHTS if is_other or lamps else SUN
-        lit, _ = lit_by(instant, place[0], place[1], hit, wanted)
+        lit, _ = lit_by(instant, place[0], place[1], hit, wanted, False)
         beyond = beyond & ~wanted | lit & wanted
     return 0.5 * (low + high), beyond
 
@@ -200,18 +216,29 @@ def _add_line(
     ends: tuple[tuple[float, float], tuple[float, float]],
     probes: tuple[int, int],
     share: float,
+    listed: Listed,
+    line: tuple[Kept, int, int, int],
 ) -> int:
     """Add the pieces of a line between two lattice points to the surfaces they show.
 
-    `share` is what the whole line stands for. Returns the new number of surfaces.
+    `share` is what the whole line stands for, `line` where its first edge is kept: row and column
+    of the first point, and 1 + 3 × direction. Returns the new number of surfaces.
     """
+    kept, j, i, at = line
     start, stop = ends
     low, probe = 0.0, probes[0]
     for _ in range(_MAX_EDGES):
         if probe == probes[1]:
             break
         first = low
-        low, beyond = _find_edge(instant, ends, low, (probe, probes[1]))
+        is_kept = kept[0][j, i, at] == probe and kept[0][j, i, at + 1] == probes[1]
+        if low == 0.0 and is_kept:
+            low, beyond = kept[1][j, i, at // 3], kept[0][j, i, at + 2]
+        else:
+            low, beyond = _find_edge(instant, ends, first, (probe, probes[1]), listed)
+            if first == 0.0:
+                kept[0][j, i, at], kept[0][j, i, at + 1] = probe, probes[1]
+                kept[1][j, i, at // 3], kept[0][j, i, at + 2] = low, beyond
         place = _between(start, stop, 0.5 * (first + low))
         count = _add_share(shares, count, probe, share * (low - first), place)
         probe = beyond
@@ -221,14 +248,22 @@ def _add_line(
 
 @jit(error_model="numpy", inner=True)
 def _split_pixel(
-    instant: Record, column: int, row: int, probes: NDArray[np.int64], shares: Float64Array
+    instant: Record,
+    column: int,
+    row: int,
+    probes: NDArray[np.int64],
+    shares: Float64Array,
+    listed: Listed,
+    kept: Kept,
+    lattice: tuple[int, int],
 ) -> Colour:
     """Mean light over a pixel with an edge in it.
 
     `probes` [k, k] is what is at the lattice points in and around the pixel, `shares` [any, 6]
-    scratch space. The pixel is cut into lines between lattice points, in the direction that
-    crosses more edges; on each line the edge is found by bisection. So coverage grows
-    continuously as an edge moves, where counted samples would jump.
+    scratch space, `lattice` the place of the first of these points in the tile's. The pixel is cut
+    into lines between lattice points, in the direction that crosses more edges; on each line the
+    edge is found by bisection. So coverage grows continuously as an edge moves, where counted
+    samples would jump.
     """
     last = len(probes) - 1
     across, down = 0, 0
@@ -245,21 +280,28 @@ def _split_pixel(
                 first, second = probes[line, piece], probes[line, piece + 1]
                 start = (column + piece / last, row + line / last)
                 stop = (column + (piece + 1) / last, start[1])
+                at = (kept, lattice[0] + line, lattice[1] + piece, 1)
             else:
                 first, second = probes[piece, line], probes[piece + 1, line]
                 start = (column + line / last, row + piece / last)
                 stop = (start[0], row + (piece + 1) / last)
-            count = _add_line(instant, shares, count, (start, stop), (first, second), share)
+                at = (kept, lattice[0] + piece, lattice[1] + line, 4)
+            count = _add_line(
+                instant, shares, count, (start, stop), (first, second), share, listed, at
+            )
     return _mean_light(instant, shares, count)
 
 
 @jit(error_model="numpy", inner=True)
-def _mark_needed(wanted: NDArray[np.bool_], samples: int, probes: NDArray[np.int64]) -> bool:
+def _mark_needed(
+    wanted: NDArray[np.bool_], samples: int, probes: NDArray[np.int64], kept: Kept
+) -> bool:
     """Write `_NEEDED` to the lattice points of wanted pixels, else `UNKNOWN`; whether there are."""
     is_any = False
     for j in range(wanted.shape[0] * samples + 1):
         for i in range(wanted.shape[1] * samples + 1):
             probes[j, i] = UNKNOWN
+            kept[0][j, i, 0] = kept[0][j, i, 1] = kept[0][j, i, 4] = UNKNOWN
     for row in range(wanted.shape[0]):
         for column in range(wanted.shape[1]):
             if wanted[row, column]:
@@ -277,27 +319,61 @@ def _probe_tile(
     wanted: NDArray[np.bool_],
     samples: int,
     probes: NDArray[np.int64],
+    near: NDArray[np.int32],
+    kept: Kept,
 ) -> None:
     """Probe the wanted pixels of a tile, given its left and top edges in pixels, on a lattice.
 
     Shadow is looked for at every other lattice point; the points between take it over from their
     left neighbour on the same surface, which saves half of the shadow rays.
     """
-    left, top = corner
-    if not _mark_needed(wanted, samples, probes):
+    if not _mark_needed(wanted, samples, probes, kept):
         return
-    for j in range(wanted.shape[0] * samples + 1):
-        for i in range(wanted.shape[1] * samples + 1):
+    rows, columns = wanted.shape[0] * samples + 1, wanted.shape[1] * samples + 1
+    side = _BLOCK * samples
+    for j in range(0, rows - 1, side):
+        bottom = rows if j + side >= rows - 1 else j + side
+        for i in range(0, columns - 1, side):
+            block = (j, bottom, i, columns if i + side >= columns - 1 else i + side)
+            _probe_block(instant, corner, block, samples, probes, near)
+
+
+@jit(error_model="numpy", inner=True)
+def _probe_block(
+    instant: Record,
+    corner: tuple[int, int],
+    block: tuple[int, int, int, int],
+    samples: int,
+    probes: NDArray[np.int64],
+    near: NDArray[np.int32],
+) -> None:
+    """As `_probe_tile`, some rows and columns of the lattice: the first and one past the last."""
+    left, top = corner
+    is_any = False
+    for j in range(block[0], block[1]):
+        for i in range(block[2], block[3]):
+            is_any |= probes[j, i] == _NEEDED
+    if not is_any:
+        return
+    box = (
+        left + block[2] / samples,
+        left + (block[3] - 1) / samples,
+        top + block[0] / samples,
+        top + (block[1] - 1) / samples,
+    )
+    listed = shapes_near(instant, box, near, True)
+    for j in range(block[0], block[1]):
+        for i in range(block[2], block[3]):
             if probes[j, i] != _NEEDED:
                 continue
             x, y = left + i / samples, top + j / samples
-            depth, number, face, thin = first_hit(instant, x, y)
+            depth, number, face, thin = first_listed(instant, x, y, listed, True)
             surface = surface_code(instant, number, face)
             is_odd = (i + j) % 2 == 1
             if not thin and i > 0 and is_odd and probes[j, i - 1] >> LIT_BITS == surface:
                 probes[j, i] = probes[j, i - 1]
                 continue
-            lit, thin_shadow = lit_by(instant, x, y, (depth, number, face), ALL_LIGHTS)
+            lit, thin_shadow = lit_by(instant, x, y, (depth, number, face), ALL_LIGHTS, True)
             probes[j, i] = _THIN if thin or thin_shadow else (surface << LIT_BITS) + lit
 
 
@@ -309,6 +385,8 @@ def _probe_shadows(
     lattice: tuple[int, int],
     probes: NDArray[np.int64],
     around: NDArray[np.int64],
+    kept: Kept,
+    listed: Listed,
 ) -> None:
     """Write the probes of a pixel to `around`, and look for shadow where they took over another.
 
@@ -326,7 +404,10 @@ def _probe_shadows(
                     differs = around[row, column] ^ around[j, i]
                     is_sure &= differs == 0 or differs >> LIT_BITS != 0
             if not is_sure:
-                around[j, i] = _probe(instant, left + i / last, top + j / last)
+                at = lattice[0] + j, lattice[1] + i, 0
+                if kept[0][at] == UNKNOWN:
+                    kept[0][at] = _probe(instant, left + i / last, top + j / last, listed)
+                around[j, i] = kept[0][at]
 
 
 @jit(error_model="numpy", inner=True)
@@ -380,13 +461,18 @@ def render_rows(
     probes = np.empty((TILE * samples + 1, TILE * samples + 1), dtype=np.int64)
     shares = np.empty((_MAX_SURFACES, 6), dtype=np.float64)
     around = np.empty((samples + 1, samples + 1), dtype=np.int64)
+    near = np.empty(_MOST_NEAR, dtype=np.int32)
+    kept = (
+        np.empty((TILE * samples + 1, TILE * samples + 1, 7), dtype=np.int64),
+        np.empty((TILE * samples + 1, TILE * samples + 1, 2), dtype=np.float64),
+    )
     for left in range(0, width, TILE):
         right = min(left + TILE, width)
         in_tile = wanted[top:bottom, left:right]
         if not in_tile.any():
             continue
         in_doubt = in_tile & (codes[top:bottom, left:right] == UNKNOWN)
-        _probe_tile(instant, (left, top), in_doubt, samples, probes)
+        _probe_tile(instant, (left, top), in_doubt, samples, probes, near, kept)
         for row in range(top, bottom):
             for column in range(left, right):
                 if not wanted[row, column]:
@@ -396,11 +482,16 @@ def render_rows(
                     codes[row, column] = probes[j, i]
                 if codes[row, column] != UNKNOWN:
                     light = _shade(instant, column + 0.5, row + 0.5, codes[row, column])
-                elif _any_thin(probes, j, i, samples):
-                    light = _sample_pixel(instant, column, row, pattern, shares)
                 else:
-                    _probe_shadows(instant, column, row, (j, i), probes, around)
-                    light = _split_pixel(instant, column, row, around, shares)
+                    box = (column, column + 1.0, row, row + 1.0)
+                    listed = shapes_near(instant, box, near, False)
+                    if _any_thin(probes, j, i, samples):
+                        light = _sample_pixel(instant, column, row, pattern, shares, listed)
+                    else:
+                        _probe_shadows(instant, column, row, (j, i), probes, around, kept, listed)
+                        light = _split_pixel(
+                            instant, column, row, around, shares, listed, kept, (j, i)
+                        )
                 if instant.glow_count > 0:
                     light = add_glows(instant, column + 0.5, row + 0.5, light)
                 image[row, column, 0] = light[0]

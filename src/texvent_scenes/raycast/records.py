@@ -60,6 +60,7 @@ INSTANT_RECORD = np.dtype(
         # Where the cells of the lamps that cast shadows begin, and the screen tiles of media.
         ("lamp_cells", "i8"),
         ("medium_tiles", "i8"),
+        ("window_edge", "f8"),  # rim of a shape's window that only a widened one reaches, pixels
         # Addresses of the arrays of `World` and of its meshes and images, and numbers of items.
         ("shapes", "i8"),
         ("shape_count", "i8"),

@@ -8,12 +8,16 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+from numpy.typing import NDArray
+
 from texvent.runtime.jit import jit
 from texvent_scenes.raycast.acceleration import NEAR_M, SUN_CELLS, TILE
 from texvent_scenes.raycast.addresses import list_at, shape_at, triangle_at
 from texvent_scenes.raycast.meshes.hit import hit_mesh, mesh_normals, smooth_point
 from texvent_scenes.raycast.records import Record
 from texvent_scenes.raycast.vectors import (
+    NO_DISTORTION,
     Vector,
     along,
     dot,
@@ -26,6 +30,9 @@ from texvent_scenes.raycast.vectors import (
     world_normal,
 )
 
+Listed = tuple[int, int, int]
+"""Address of a list of shapes, front to back, its first place and the one past the last; −1: none
+is chosen."""
 FACE_SIDE = 0
 FACE_TOP = 1
 FACE_BOTTOM = 2
@@ -50,21 +57,24 @@ def hit_ellipsoid(o: Vector, d: Vector, near: float) -> tuple[float, int]:
 @jit(error_model="numpy", inner=True)
 def hit_box(o: Vector, d: Vector, near: float) -> tuple[float, int]:
     """Entry of a ray into the cube |x|, |y|, |z| <= 1; faces are 0..5 = -x, +x, -y, +y, -z, +z."""
-    enter, leave, face = -MISS, MISS, 0
+    enter, leave = -MISS, MISS
+    for axis in range(3):  # without branches: they take more time than the arithmetic
+        first, second = _slab(o[axis], d[axis])
+        enter, leave = max(enter, min(first, second)), min(leave, max(first, second))
+    if not (enter < leave and enter > near):
+        return MISS, 0
     for axis in range(3):
-        inverse = 1.0 / (d[axis] if d[axis] != 0.0 else _FLAT)
-        first = (-1.0 - o[axis]) * inverse
-        second = (1.0 - o[axis]) * inverse
-        entry = 2 * axis
-        if first > second:
-            first, second = second, first
-            entry += 1
-        if first > enter:
-            enter, face = first, entry
-        leave = min(leave, second)
-    if enter < leave and enter > near:
-        return enter, face
+        first, second = _slab(o[axis], d[axis])
+        if min(first, second) == enter:
+            return enter, 2 * axis + int(first > second)
     return MISS, 0
+
+
+@jit(error_model="numpy", inner=True)
+def _slab(o: float, d: float) -> tuple[float, float]:
+    """Parameters at which a ray crosses -1 and 1 along one axis."""
+    inverse = 1.0 / (d if d != 0.0 else _FLAT)
+    return (-1.0 - o) * inverse, (1.0 - o) * inverse
 
 
 @jit(error_model="numpy", inner=True)
@@ -230,6 +240,22 @@ def is_between(instant: Record, shape: Record, o: Vector, d: Vector, far: float)
 
 
 @jit(error_model="numpy", inner=True)
+def stands_between(instant: Record, shape: Record, point: Vector, d: Vector, far: float) -> bool:
+    """As `is_between`, of a ray from a point of the world; of a box axis by axis, as most miss."""
+    m = shape.inverse
+    if shape.kind != BOX:
+        return is_between(instant, shape, mapped(m, point), d, far)
+    enter, leave = -MISS, MISS
+    for axis in range(3):
+        o = m[axis, 0] * point[0] + m[axis, 1] * point[1] + m[axis, 2] * point[2] + m[axis, 3]
+        first, second = _slab(o, d[axis])
+        enter, leave = max(enter, min(first, second)), min(leave, max(first, second))
+        if enter >= leave or leave <= 0.0 or enter >= far:
+            return False
+    return enter > 0.0
+
+
+@jit(error_model="numpy", inner=True)
 def surface_code(instant: Record, number: int, face: int) -> int:
     """One number for what was hit, which differs between neighbouring surfaces."""
     if number >= 0 and shape_at(instant.shapes, number).kind == MESH:
@@ -261,6 +287,51 @@ def shows_code(instant: Record, x: float, y: float, code: int) -> bool:
 
 
 @jit(error_model="numpy", inner=True)
+def shapes_at(instant: Record, x: float, y: float) -> Listed:
+    """The shapes that the ray through image point (x, y) may meet: those of its tile."""
+    x, y = plane_point(instant, x, y)
+    if math.isnan(x):
+        return instant.lists, 0, 0
+    cell = tile_at(instant, x, y)
+    return instant.lists, list_at(instant.lists, cell), list_at(instant.lists, cell + 1)
+
+
+@jit(error_model="numpy", inner=True)
+def shapes_near(
+    instant: Record,
+    box: tuple[float, float, float, float],
+    near: NDArray[np.int32],
+    is_wide: bool,
+) -> Listed:
+    """The shapes that rays through a rectangle within a tile may meet, in the order of the tile.
+
+    Args:
+        instant: the scene.
+        box: lowest x, highest x, lowest y, highest y, pixels.
+        near: [any] is written; with more shapes, or with a distorted lens, the tile's are given.
+        is_wide: whether thin shapes that are only near count.
+    """
+    lists, first, last = shapes_at(instant, 0.5 * (box[0] + box[1]), 0.5 * (box[2] + box[3]))
+    if instant.distortion != NO_DISTORTION:
+        return lists, -1, -1
+    count = 0
+    for index in range(first, last):
+        number = list_at(lists, index)
+        shape = shape_at(instant.shapes, number)
+        window = shape.window
+        edge = 0.0 if is_wide and shape.is_thin else instant.window_edge
+        if box[1] < window[0] + edge or box[0] > window[1] - edge:
+            continue
+        if box[3] < window[2] + edge or box[2] > window[3] - edge:
+            continue
+        if count == len(near):
+            return lists, first, last
+        near[count] = number
+        count += 1
+    return int(np.int64(near.ctypes.data)), 0, count
+
+
+@jit(error_model="numpy", inner=True)
 def first_hit(instant: Record, x: float, y: float) -> tuple[float, int, int, bool]:
     """First hit of the ray through image point (x, y).
 
@@ -268,25 +339,37 @@ def first_hit(instant: Record, x: float, y: float) -> tuple[float, int, int, boo
         (depth in metres, shape number or GROUND / SKY / ROOM / NOTHING, face, whether a thin
         shape is near).
     """
-    lists = instant.lists
+    return first_listed(instant, x, y, shapes_at(instant, x, y), True)
+
+
+@jit(error_model="numpy", inner=True)
+def first_listed(
+    instant: Record, x: float, y: float, listed: Listed, is_wide: bool
+) -> tuple[float, int, int, bool]:
+    """As `first_hit`, among some shapes; thin ones that are near are looked for where `is_wide`."""
+    if listed[1] < 0:
+        listed = shapes_at(instant, x, y)
+    lists = listed[0]
     x, y = plane_point(instant, x, y)
     if math.isnan(x):
         return math.inf, NOTHING, 0, False
     direction = plane_direction(instant, x, y)
-    cell = tile_at(instant, x, y)
     best, found, best_face = background_hit(instant, direction)
     thin = math.inf
-    for index in range(list_at(lists, cell), list_at(lists, cell + 1)):
+    for index in range(listed[1], listed[2]):
         shape = shape_at(instant.shapes, list_at(lists, index))
         if shape.depth >= best:
             break
         window = shape.window
-        if x < window[0] or x > window[1] or y < window[2] or y > window[3]:
+        edge = 0.0 if is_wide and shape.is_thin else instant.window_edge
+        if x < window[0] + edge or x > window[1] - edge:
+            continue
+        if y < window[2] + edge or y > window[3] - edge:
             continue
         t, face, d = _hit_one(instant, shape, direction)
         if t < best:
             best, found, best_face = t, int(list_at(lists, index)), face
-        if shape.is_thin:
+        if is_wide and shape.is_thin:
             thin = min(thin, widened_hit(shape, triple(shape.eye), d, NEAR_M))
     return best, found, best_face, thin < math.inf and thin <= best
 
@@ -318,7 +401,9 @@ def background_from(instant: Record, origin: Vector, direction: Vector) -> tuple
 
 
 @jit(error_model="numpy", inner=True)
-def _blocked_in_cell(instant: Record, cell: int, point: Vector, place: Vector) -> tuple[bool, bool]:
+def _blocked_in_cell(
+    instant: Record, cell: int, point: Vector, place: Vector, is_wide: bool
+) -> tuple[bool, bool]:
     """As `sun_blocked`, by the shapes that one cell of the sun grid lists.
 
     `place` is the point along the sun plane's axes and towards the sun.
@@ -332,17 +417,20 @@ def _blocked_in_cell(instant: Record, cell: int, point: Vector, place: Vector) -
             continue
         if place[1] < window[2] or place[1] > window[3]:
             continue
-        o, d = mapped(shape.inverse, point), triple(shape.sun)
-        if is_between(instant, shape, o, d, math.inf):
+        d = triple(shape.sun)
+        if stands_between(instant, shape, point, d, math.inf):
             return True, thin
-        if shape.is_thin and not thin:
-            thin = widened_hit(shape, o, d, 0.0) < math.inf
+        if is_wide and shape.is_thin and not thin:
+            thin = widened_hit(shape, mapped(shape.inverse, point), d, 0.0) < math.inf
     return False, thin
 
 
 @jit(error_model="numpy", inner=True)
-def sun_blocked(instant: Record, point: Vector) -> tuple[bool, bool]:
-    """Whether a shape stands between a point and the sun, and whether a thin one is close to."""
+def sun_blocked(instant: Record, point: Vector, is_wide: bool) -> tuple[bool, bool]:
+    """Whether a shape stands between a point and the sun, and whether a thin one is close to.
+
+    The latter is looked for where `is_wide`.
+    """
     plane, sun, grid = instant.sun_plane, instant.sun, instant.sun_grid
     place = (dot(plane[0], point), dot(plane[1], point), dot(sun, point))
     column = math.floor((place[0] - grid[0]) * grid[2])
@@ -350,11 +438,11 @@ def sun_blocked(instant: Record, point: Vector) -> tuple[bool, bool]:
     thin = False
     if 0.0 <= column < SUN_CELLS and 0.0 <= row < SUN_CELLS:
         cell = instant.sun_cells + int(row) * SUN_CELLS + int(column)
-        blocked, thin = _blocked_in_cell(instant, cell, point, place)
+        blocked, thin = _blocked_in_cell(instant, cell, point, place, is_wide)
         if blocked:
             return True, thin
     last = instant.sun_cells + SUN_CELLS * SUN_CELLS
-    blocked, big_thin = _blocked_in_cell(instant, last, point, place)
+    blocked, big_thin = _blocked_in_cell(instant, last, point, place, is_wide)
     return blocked, thin or big_thin
 
 
@@ -382,11 +470,14 @@ def shadow_point(instant: Record, number: int, face: int, point: Vector) -> Vect
 
 
 @jit(error_model="numpy", inner=True)
-def sun_reaches(instant: Record, point: Vector, normal: Vector) -> tuple[bool, bool]:
-    """Whether direct light falls on a surface, and whether a thin shape's shadow is near."""
+def sun_reaches(instant: Record, point: Vector, normal: Vector, is_wide: bool) -> tuple[bool, bool]:
+    """Whether direct light falls on a surface, and whether a thin shape's shadow is near.
+
+    The latter is looked for where `is_wide`.
+    """
     if dot(instant.sun, normal) <= 0.0:
         return False, False
     if not instant.shadows:
         return True, False
-    blocked, thin = sun_blocked(instant, along(point, normal, SHADOW_BIAS_M))
+    blocked, thin = sun_blocked(instant, along(point, normal, SHADOW_BIAS_M), is_wide)
     return not blocked, thin

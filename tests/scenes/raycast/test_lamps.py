@@ -9,6 +9,7 @@ from tests.scenes.raycast.intersect_reference import hit_shape_reference
 from texvent.sensor import SensorSize
 from texvent_scenes.raycast.lamps.gleam import lamp_gleam
 from texvent_scenes.raycast.lamps.light import (
+    FINE,
     LONGITUDES,
     MOST_SHADOW_LAMPS,
     find_cells,
@@ -74,7 +75,7 @@ def test_shadows_are_those_of_all_shapes_tested_one_by_one():
     kinds, inverses = scene.primitives(0.0).shape, world.shapes["inverse"]
     wrong = blocked = 0
     for point in np.append(rng.uniform(-5.0, 5.0, (150, 2)), np.zeros((150, 1)), axis=1):
-        seen, _ = lamps_reach(world.instant[0], tuple(point), (0.0, 0.0, 1.0), 0b111)
+        seen, _ = lamps_reach(world.instant[0], tuple(point), (0.0, 0.0, 1.0), 0b111, True)
         depths = np.min(
             [
                 hit_shape_reference(
@@ -103,8 +104,9 @@ def test_a_box_covers_as_many_cells_wherever_around_the_lamp_it_is():
     assert (cells[0, :, 2:] == cells[1, :, 2:]).all()
     sides = cells[:, :, 1] - cells[:, :, 0]
     assert (sides[0] == sides[1]).all()
-    further = (cells[1] - cells[0])[sides[0] < LONGITUDES - 1, 0]
-    assert (further % LONGITUDES == LONGITUDES // 4).all()
+    columns = FINE * LONGITUDES
+    further = (cells[1] - cells[0])[sides[0] < columns - 1, 0]
+    assert (further % columns == columns // 4).all()
 
 
 def test_no_more_lamps_cast_shadows_than_there_are_bits():

@@ -5,9 +5,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from texvent.runtime.jit import jit
 from texvent.runtime.threads import THREADS_VARIABLE
 from texvent.sensor import SensorSize
-from texvent_scenes.raycast.render import render
+from texvent_scenes.raycast.render import light_of_rows, render, world_at
+from texvent_scenes.raycast.trace import (
+    background_hit,
+    first_listed,
+    hit_again,
+    ray_direction,
+    shapes_near,
+)
 from texvent_scenes.rendered_scene import Environment, Ground, Shape
 
 from ..hand_scenes import HandScene, MovingShape, day, look_at, moving, showcase, still
@@ -117,3 +125,45 @@ def test_a_floor_is_darker_along_every_wall_of_rooms_and_corridors(half_width_m,
                           environment_base=room)  # fmt: skip
         levels.append(linear(render(scene, 0.0, SensorSize(33, 33)))[12:21, 15:18].mean())
     assert levels[0] < 0.9 * levels[1]
+
+
+@jit(error_model="numpy")
+def _hits_of_pixels(instants, points, near, hits):
+    """Depths and shapes of first hits, of all shapes and of those near the pixel, [k, 2, 2]."""
+    for index in range(len(points)):
+        x, y = points[index, 0], points[index, 1]
+        depth, found, _ = background_hit(instants[0], ray_direction(instants[0], x, y))
+        for number in range(instants[0].shape_count):
+            other, _ = hit_again(instants[0], x, y, number)
+            if other < depth:
+                depth, found = other, number
+        hits[index, 0, 0], hits[index, 0, 1] = depth, found
+        column, row = np.floor(x), np.floor(y)
+        listed = shapes_near(instants[0], (column, column + 1.0, row, row + 1.0), near, False)
+        depth, found, _, _ = first_listed(instants[0], x, y, listed, False)
+        hits[index, 1, 0], hits[index, 1, 1] = depth, found
+
+
+@pytest.mark.parametrize("room", [1, 64])
+def test_rays_through_a_pixel_meet_none_but_the_shapes_that_are_listed_near_it(room):
+    rng = np.random.default_rng(4)
+    shapes = tuple(
+        MovingShape(Shape(k % 4), tuple(rng.uniform(0.03, 0.5, 3)), still(*rng.uniform(-3, 3, 3)))
+        for k in range(120)
+    )
+    scene = HandScene(shapes, lambda t: look_at((0.0, -10.0, 0.0), (0.0, 0.0, 0.0)), day())
+    points = rng.uniform((0.0, 0.0), (96.0, 72.0), (4000, 2))
+    hits = np.empty((4000, 2, 2))
+    world = world_at(scene, 0.0, SMALL)
+    _hits_of_pixels(world.instant, points, np.empty(room, np.int32), hits)
+    assert (hits[:, 0] == hits[:, 1]).all()
+    assert len(np.unique(hits[:, 0, 1])) > 60
+
+
+def test_a_pixel_drawn_alone_is_that_of_the_whole_picture():
+    world = world_at(showcase(), 0.3, SMALL)
+    whole = light_of_rows(world, (0, 72), SMALL)
+    chosen = np.random.default_rng(5).uniform(size=(72, 96)) < 0.1
+    few = light_of_rows(world, (0, 72), SMALL, wanted=chosen, light=np.zeros_like(whole))
+    np.testing.assert_array_equal(few[chosen], whole[chosen])
+    assert not few[~chosen].any()

@@ -16,9 +16,9 @@ from texvent_scenes.raycast.trace import (
     ROOM,
     SHADOW_BIAS_M,
     SKY,
-    is_between,
     ray_direction,
     shadow_point,
+    stands_between,
     sun_reaches,
     surface_normal,
     widened_hit,
@@ -104,6 +104,11 @@ def light_through(instant: Record, point: Vector) -> Colour:
 LONGITUDES, LATITUDES = 96, 64
 """Cells of the grid of directions around a lamp: around the vertical, and by the sine of the
 height."""
+FINE = 16
+"""Parts of a cell's sides, by which the shapes that it lists are told apart."""
+CASTER = 6
+"""Numbers of a caster in a cell: that of its shape, its distance, mm, and its first and last column
+and row of parts of cells."""
 MOST_SHADOW_LAMPS = 4
 """Lamps that can cast shadows at one instant."""
 
@@ -121,9 +126,9 @@ def order_lamps(lamps: NDArray[Any], *, shadows: bool) -> tuple[NDArray[Any], in
 def list_casters(lamp: Any, shapes: NDArray[Any], primitives: Primitives) -> Bins:
     """The shapes that may stand in a lamp's light, by cells of directions from the lamp.
 
-    Each is followed by its distance from the lamp, mm, and nearer ones come first: what is
-    farther than a surface cannot stand in its light. Shapes that glow, that hold the lamp or that
-    its light does not reach are left out.
+    Each has `CASTER` numbers, and nearer ones come first: what is farther than a surface cannot
+    stand in its light, nor what lies in other directions. Shapes that glow, that hold the lamp or
+    that its light does not reach are left out.
 
     Args:
         lamp: `LAMP_RECORD`.
@@ -146,12 +151,16 @@ def list_casters(lamp: Any, shapes: NDArray[Any], primitives: Primitives) -> Bin
     order = np.flatnonzero(near)
     order = order[np.argsort(nearest[order], kind="stable")]
     # A range of columns may go round past either edge of the grid.
-    around = rectangles[order] + LONGITUDES * np.array([[-1], [0], [1]])[:, :, None] * [1, 1, 0, 0]
-    touches = (around[:, :, 1] >= 0) & (around[:, :, 0] < LONGITUDES)
+    columns = FINE * LONGITUDES
+    around = rectangles[order] + columns * np.array([[-1], [0], [1]])[:, :, None] * [1, 1, 0, 0]
+    touches = (around[:, :, 1] >= 0) & (around[:, :, 0] < columns)
     rank, turn = np.nonzero(touches.T)
-    bins = bin_rectangles(around[turn, rank], order[rank], LONGITUDES, LATITUDES)
-    items = np.stack([numbers, np.floor(1e3 * nearest)], axis=1)[bins.items].astype(np.int32)
-    return Bins(2 * bins.start, items.ravel(), LONGITUDES, LATITUDES)
+    fine = around[turn, rank]
+    bins = bin_rectangles(fine // FINE, np.arange(len(fine)), LONGITUDES, LATITUDES)
+    chosen = order[rank]
+    casters = np.column_stack([numbers[chosen], np.floor(1e3 * nearest[chosen]), fine])
+    items = casters.astype(np.int32)[bins.items]
+    return Bins(CASTER * bins.start, items.ravel(), LONGITUDES, LATITUDES)
 
 
 def in_beam(lamp: Any, boxes: Float64Array) -> NDArray[np.bool_]:
@@ -171,8 +180,8 @@ def find_cells(boxes: Float64Array, rectangles: IntArray) -> Float64Array:
 
     Args:
         boxes: [n, 3, 4] half axes and middle, m.
-        rectangles: [n, 4] first and last column, beyond the grid where they go round, and first
-            and last row, are written.
+        rectangles: [n, 4] first and last column of parts of cells, beyond the grid where they go
+            round, and first and last row, are written.
 
     Returns:
         [n] distances, m, at most those of their nearest points.
@@ -196,11 +205,12 @@ def find_cells(boxes: Float64Array, rectangles: IntArray) -> Float64Array:
         low, high = box[2, 3] - half, box[2, 3] + half
         down = low / (math.hypot(low, beside if low < 0.0 else reach) + 1e-300)
         up = high / (math.hypot(high, beside if high > 0.0 else reach) + 1e-300)
-        rectangles[number, 0] = math.floor(0.25 * LONGITUDES * (middle + first) - 1e-6)
-        rectangles[number, 1] = math.floor(0.25 * LONGITUDES * (middle + last) + 1e-6)
-        rectangles[number, 1] = min(rectangles[number, 1], rectangles[number, 0] + LONGITUDES - 1)
-        rectangles[number, 2] = math.floor(LATITUDES * (0.5 + 0.5 * down) - 1e-6)
-        rectangles[number, 3] = math.floor(LATITUDES * (0.5 + 0.5 * up) + 1e-6)
+        columns, rows = FINE * LONGITUDES, FINE * LATITUDES
+        rectangles[number, 0] = math.floor(0.25 * columns * (middle + first) - 1e-5)
+        rectangles[number, 1] = math.floor(0.25 * columns * (middle + last) + 1e-5)
+        rectangles[number, 1] = min(rectangles[number, 1], rectangles[number, 0] + columns - 1)
+        rectangles[number, 2] = math.floor(rows * (0.5 + 0.5 * down) - 1e-5)
+        rectangles[number, 3] = math.floor(rows * (0.5 + 0.5 * up) + 1e-5)
         nearest[number] = _distance(box, 3)
     return nearest
 
@@ -243,46 +253,62 @@ LIT_BITS = 1 + MOST_SHADOW_LAMPS
 
 
 @jit(error_model="numpy", inner=True)
-def direction_cell(towards: Vector, distance: float) -> int:
-    """The cell of a lamp's grid of directions that a surface is in; `towards` leads to the lamp.
+def direction_parts(towards: Vector, distance: float) -> tuple[int, int]:
+    """Column and row of the part of a cell, of a lamp's grid of directions, that a surface is in.
 
-    Columns divide the outline of a diamond around the lamp, rows the height: see `lamps.light`.
+    `towards` leads to the lamp. Columns divide the outline of a diamond around it, rows the height.
     """
     corner = _along_diamond(-towards[0], -towards[1])
     height = 0.5 - 0.5 * towards[2] / distance
-    column = min(int(corner * (0.25 * LONGITUDES)), LONGITUDES - 1)
-    row = min(max(int(height * LATITUDES), 0), LATITUDES - 1)
-    return row * LONGITUDES + column
+    column = min(int(corner * (0.25 * FINE * LONGITUDES)), FINE * LONGITUDES - 1)
+    row = min(max(int(height * (FINE * LATITUDES)), 0), FINE * LATITUDES - 1)
+    return column, row
 
 
 @jit(error_model="numpy", inner=True)
 def _blocked(
-    instant: Record, cell: int, point: Vector, towards: Vector, near: float
+    instant: Record, lamp: int, ray: tuple[Vector, Vector], ends: tuple[float, float], is_wide: bool
 ) -> tuple[bool, bool]:
-    """Whether a shape of one cell stands between a point and a lamp, and whether a thin one nearly.
+    """Whether a shape stands between a point and a lamp, and whether a thin one nearly.
 
-    Shapes beyond the share `near` of the distance belong to the lamp itself.
+    Args:
+        instant: the scene.
+        lamp: its number.
+        ray: the point, and the vector to the lamp.
+        ends: the distance of the lamp, metres, and the share of it beyond which shapes belong to
+            the lamp itself.
+        is_wide: whether thin ones are looked for.
     """
+    point, towards = ray
     lists, thin = instant.lists, False
+    column, row = direction_parts(towards, ends[0])
+    cell = instant.lamp_cells + lamp * (LONGITUDES * LATITUDES + 1)
+    cell += (row // FINE) * LONGITUDES + column // FINE
     reach_mm = 1e3 * math.sqrt(dot(towards, towards))
-    for index in range(list_at(lists, cell), list_at(lists, cell + 1), 2):
+    for index in range(list_at(lists, cell), list_at(lists, cell + 1), CASTER):
         if list_at(lists, index + 1) > reach_mm:
             break
+        if column < list_at(lists, index + 2) or column > list_at(lists, index + 3):
+            continue
+        if row < list_at(lists, index + 4) or row > list_at(lists, index + 5):
+            continue
         shape = shape_at(instant.shapes, list_at(lists, index))
-        o, d = mapped(shape.inverse, point), turned(shape.inverse, towards)
-        if is_between(instant, shape, o, d, near):
+        d = turned(shape.inverse, towards)
+        if stands_between(instant, shape, point, d, ends[1]):
             return True, thin
-        if shape.is_thin and not thin:
-            thin = widened_hit(shape, o, d, 0.0) < near
+        if is_wide and shape.is_thin and not thin:
+            thin = widened_hit(shape, mapped(shape.inverse, point), d, 0.0) < ends[1]
     return False, thin
 
 
 @jit(error_model="numpy")
-def lamps_reach(instant: Record, point: Vector, normal: Vector, wanted: int) -> tuple[int, bool]:
+def lamps_reach(
+    instant: Record, point: Vector, normal: Vector, wanted: int, is_wide: bool
+) -> tuple[int, bool]:
     """Lamps that cast shadows and that a surface sees, and whether a thin shadow is near.
 
-    Only the lamps whose bit is set in `wanted` are looked for. Bit k belongs to lamp k. A lamp
-    that the surface faces but whose light ends before it counts as seen.
+    Only the lamps whose bit is set in `wanted` are looked for, thin shadows where `is_wide`. Bit k
+    belongs to lamp k. A lamp that the surface faces but whose light ends before it counts as seen.
     """
     seen, thin = 0, False
     for index in range(instant.shadow_lamps):
@@ -297,10 +323,8 @@ def lamps_reach(instant: Record, point: Vector, normal: Vector, wanted: int) -> 
         share, distance = falloff(lamp, towards)
         if share <= 0.0:
             continue
-        grid = instant.lamp_cells + index * (LONGITUDES * LATITUDES + 1)
-        cell = grid + direction_cell(towards, distance)
-        near = 1.0 - min(lamp.radius / distance, 0.9)
-        is_blocked, is_thin = _blocked(instant, cell, start, towards, near)
+        ends = distance, 1.0 - min(lamp.radius / distance, 0.9)
+        is_blocked, is_thin = _blocked(instant, index, (start, towards), ends, is_wide)
         thin = thin or is_thin
         if is_blocked:
             seen &= ~(1 << index)
@@ -315,11 +339,17 @@ SUN = 1
 
 @jit(error_model="numpy", inner=True)
 def lit_by(
-    instant: Record, x: float, y: float, hit: tuple[float, int, int], wanted: int
+    instant: Record,
+    x: float,
+    y: float,
+    hit: tuple[float, int, int],
+    wanted: int,
+    is_wide: bool,
 ) -> tuple[int, bool]:
     """Lights that reach a hit point (bit 0: sun, then lamps), and whether a thin shadow is near.
 
-    Only the lights in `wanted` are looked for; only lamps that cast shadows count.
+    Only the lights in `wanted` are looked for, and only lamps that cast shadows count; thin shadows
+    are looked for where `is_wide`.
     """
     depth, number, face = hit
     if number == SKY or (number == ROOM and instant.shadow_lamps == 0):
@@ -329,10 +359,10 @@ def lit_by(
     point = shadow_point(instant, number, face, point)
     is_sunlit, thin = False, False
     if number != ROOM and wanted & 1:
-        is_sunlit, thin = sun_reaches(instant, point, normal)
+        is_sunlit, thin = sun_reaches(instant, point, normal, is_wide)
     lit = int(is_sunlit)
     if instant.shadow_lamps > 0:
-        lamps, thin_lamp = lamps_reach(instant, point, normal, wanted >> 1)
+        lamps, thin_lamp = lamps_reach(instant, point, normal, wanted >> 1, is_wide)
         lit |= lamps << 1
         thin = thin or thin_lamp
     return lit, thin

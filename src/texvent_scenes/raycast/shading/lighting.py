@@ -221,9 +221,9 @@ def _met_light(
     normal = surface_normal(instant, number, face, point)
     if dot(normal, direction) > 0.0:
         normal = scaled(normal, -1.0)
-    lit = int(number != ROOM and sun_reaches(instant, point, normal)[0])
+    lit = int(number != ROOM and sun_reaches(instant, point, normal, False)[0])
     if instant.shadow_lamps > 0:
-        lit |= lamps_reach(instant, point, normal, _ALL)[0] << 1
+        lit |= lamps_reach(instant, point, normal, _ALL, False)[0] << 1
     depth = before + beyond
     if number == GROUND:
         light = _ground_light(instant, depth, point, direction, steps, lit)
