@@ -52,7 +52,12 @@ DOUBTFUL = [
 ]
 
 
-@pytest.mark.parametrize(("stems", "doubt"), [(one, None) for one in PLAIN] + DOUBTFUL)
+WITH_COMMAS = [[stem.replace(".", ",") for stem in one] for one in PLAIN if "." in "".join(one)]
+
+
+@pytest.mark.parametrize(
+    ("stems", "doubt"), [(one, None) for one in (*PLAIN, *WITH_COMMAS)] + DOUBTFUL
+)
 def test_names_are_sorted_by_the_numbers_in_them(stems, doubt):
     paths = [Path("f") / f"{stem}.png" for stem in stems]
     mixed = random.Random(1).sample(paths, len(paths))

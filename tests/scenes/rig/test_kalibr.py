@@ -10,6 +10,7 @@ import pytest
 import yaml
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.cli.running import refused
 
 from texvent.errors import ConfigError, TexventWarning
 from texvent.io.calibration import MODELS, read_lens
@@ -118,6 +119,14 @@ def test_names_of_the_fields_are_kalibrs(tmp_path):
     assert written["cam0"]["intrinsics"] == given["cam0"]["intrinsics"]
     alone = yaml.safe_load(camchain(rig, {}, has_imu=False))
     assert "T_cam_imu" not in alone["cam0"]
+
+
+@pytest.mark.parametrize("sensor", [["--sensor", "64x48"], ["--sensor=64x48"]])
+def test_a_sensor_beside_a_rig_file_is_refused_in_both_spellings(sensor, tmp_path, capsys):
+    file, out = write(tmp_path, KALIBR), tmp_path / "out"
+    line = refused(capsys, "rig", "a red ball bounces", *sensor, "--rig", file, "-o", out)
+    assert line.startswith("--sensor 64x48 and --rig")
+    assert not out.exists()
 
 
 def test_imu_yaml_has_kalibrs_fields():
