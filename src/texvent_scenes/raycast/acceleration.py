@@ -42,7 +42,7 @@ NEAR_M = 0.02
 WINDOW_MARGIN_PX = 2.0
 """Added around the part of the image where a shape may be seen: room for widened thin shapes."""
 ROUNDING_PX = 0.01
-"""What of it is for rounding: beyond, no ray meets the shape itself."""
+"""Part of it for rounding: beyond, no ray meets the shape itself."""
 THIN_PROBES = 0.8
 """Shapes whose half-thickness is below this many probe distances could slip between the probes;
 they are looked for with a wider net."""
