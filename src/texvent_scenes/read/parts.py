@@ -79,6 +79,9 @@ def say_parts(draft: SceneDraft, groups: Sequence[Group], subjects: Indices) -> 
     parts = [next((word.text for word in each if word.text in owned), "") for each in words]
     if not subjects or not parts or not all(parts):
         return False
+    nouns = {draft.things[one]["noun"] for one in subjects}
+    if all(one.noun for one in groups) and not any(nouns & owned[one].keys() for one in parts):
+        return False  # "a man with candles"
     for part, each in zip(parts, words, strict=True):
         counts = {one.value[1] for word in each for one in word.all("field")
                   if one.value[0] == "count"}  # fmt: skip

@@ -383,8 +383,10 @@ def _without_chance(
     )
     is_placed = after == "of" and words[end].casefold() == "front"  # "a car in front of a house"
     is_many = bool(before) and before[-1].text.endswith(" of")  # "a stack of cardboard boxes"
-    led = itertools.takewhile(lambda one: one.has("field") or one.text == "and", reversed(before))
-    article = before[-2 - len([*led]) :]  # "a green and white tram stops"
+    hues = [one.says("field", "colour") or one.text == "and" for one in reversed(before)]
+    led = len([*itertools.takewhile(bool, hues)])
+    led -= bool(led) and before[-led].text == "and"
+    article = before[-2 - led :]  # "a green and white tram stops"
     is_single = any(one.text in ("a", "an") for one in article) and not is_many
     is_of_camera = not before or before[-1].is_sign or any(
         one.has("camera") or one.text.endswith("shot") for one in before[-9:])  # fmt: skip
