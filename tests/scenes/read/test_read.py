@@ -207,3 +207,9 @@ def test_words_of_acts_name_nothing_that_is_not_drawn_with_them():
             nouns = [one.nouns for one in tokens if one.nouns and one.text not in drawn]
             named |= {(phrase, noun) for own in nouns if not own & drawn for noun in own}
     assert {one for one in named if one[1] not in _SHOWN_TOO} == _NO_THINGS
+
+
+def test_no_participle_is_made_of_the_last_of_several_words():
+    shots = [text for text, senses in LEXICON.items() if any(one.kind == "shot" for one in senses)]
+    assert ("rotating", "camera") in shots
+    assert not [one for one in shots if len(one) > 2 and one[-1] == "camera" and "withing" in one]

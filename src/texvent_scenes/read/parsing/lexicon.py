@@ -252,8 +252,9 @@ def _list_words() -> Iterator[tuple[str, Sense]]:
     moves = (
         (move, verb) for move, verbs in word_table("doing")["camera"].items() for verb in verbs
     )
-    for move, verb in moves:  # "a rotating camera"
-        yield f"{list_verb_forms(verb)[2][0]} camera", Sense("shot", move)
+    for move, verb in moves:  # "a rotating camera"; verbs of several words have no such form
+        if " " not in verb:
+            yield f"{list_verb_forms(verb)[2][0]} camera", Sense("shot", move)
     yield from ((name, Sense("field", ("colour", name))) for name in SURFACES)
     for count, phrases in word_table("senses")["field"]["count"].items():
         times = Sense("adverb", ("times", float(count)))
