@@ -377,6 +377,8 @@ def _go_along(draft: SceneDraft, clause: Clause, move: dict[str, Any], phrase: P
     is_meant |= not phrase.groups and move["kind"] == "follow"  # "follows behind"
     nouns = nouns_of(phrase.groups)
     goes = bool(nouns) and all(draft.nouns[one].speed_m_s for one in nouns)
+    ways = {each.value("adverb") for one in phrase.groups for each in one.modifiers}
+    goes &= ("direction", "towards") not in ways  # "oncoming cars"
     if not (kind and (is_meant or goes) and _can_go_along(draft, clause, move, kind)):
         return False
     about = [*draft.last.subjects, *draft.last.nearest, *range(len(draft.things))]

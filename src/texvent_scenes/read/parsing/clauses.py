@@ -330,7 +330,8 @@ class _Parser(GroupReader):
         is_before = self._token(1).has("pronouns") and not self._starts_group(1)  # no "her car"
         is_back = token.has("relation") and is_before
         is_passive = token.text in ("being", "been") and bool(self._token(1).verbs("ed"))
-        is_lone = not self._starts_group(1) or self._token(1).has("adverb") or is_passive
+        is_way = self._token(1).has("adverb") and not self._token(2).has("noun")
+        is_lone = not self._starts_group(1) or is_way or is_passive  # "with oncoming cars" is not
         if token.text in _IS and self._token(1).text in _LIT and self._ends_clause(2):
             self._at += 2
             word = replace(self._token(-1), senses=lexicon_of(None)[(_LIT[self._token(-1).text],)])

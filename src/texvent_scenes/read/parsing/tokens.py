@@ -35,6 +35,8 @@ from texvent_scenes.words import find_literals
 
 _OF_PARTICLES = ("plain", "lamp", "machine")
 """Subjects of what is no verb with a particle before a noun: "comes down the road"."""
+_OVER_WAYS = {"cross", "crosses", "crossing", "crossed", "over", "across", "on", "at"}
+"""Words after which a crossing is a place, whatever follows."""
 _NEAR = 4
 """Words after a light verb among which what is done is named."""
 MOST_WORDS = 1000
@@ -370,17 +372,21 @@ def _without_chance(
     """Senses of several words that do not stand together by chance.
 
     As in "a dog moves in a circle" (no camera), "a pedestrian crossing the street", "a bus stops"
-    (no things), "steps out from behind a car" (no view), "comes down the road" (no fall),
+    (no things), "steps out from behind a car" (no view), "seen from the left" (no way), "comes down the road" (no fall),
     "headlights on a road" (no lamps that are lit).
     """
     after = words[end + 1].casefold() if end + 1 < len(words) else ""
     articles = word_set("senses", "articles")
     goes_on = articles | word_set("things", "routes")
-    is_verb = words[end].endswith("ing") and (
+    led_by = next((one.text for one in reversed(before) if not one.has("articles")), "")
+    is_way = led_by in _OVER_WAYS  # "crosses a zebra crossing from the right"
+    is_verb = words[end].endswith("ing") and not is_way and (
         after in goes_on
         or [one.casefold() for one in words[end + 1 : end + 3]] == ["in", "front"]
         or _is_act(words, end, before)
     )
+    is_seen = bool(before) and (before[-1].is_unknown or before[-1].has("style"))
+    is_seen &= words[end - 1] in ("from", "the")
     is_placed = after == "of" and words[end].casefold() == "front"  # "a car in front of a house"
     is_many = bool(before) and before[-1].text.endswith(" of")  # "a stack of cardboard boxes"
     hues = [one.says("field", "colour") or one.text == "and" for one in reversed(before)]
@@ -397,6 +403,7 @@ def _without_chance(
         and (one.kind != "scene" or one.value[1] != "view" or after == "that"
              or after not in articles | {"to"})
         and not (after in articles and one.kind == "field" and one.value[0] == "is_lit")
+        and (one.kind != "adverb" or not is_seen)
         and not (after in articles and one.kind == "verb" and one.value.who in _OF_PARTICLES
                  and one.value.relation is None and words[end] in word_set("things", "particles")
                  and not _is_switched(one.value.who, words[end + 1 : end + 5]))
