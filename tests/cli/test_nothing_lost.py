@@ -199,7 +199,7 @@ def test_a_full_disk_stops_the_run_and_leaves_nothing(tmp_path, monkeypatch, cap
 
 
 def write_davis(folder: Path, *, has_frames: bool) -> None:
-    """An AEDAT 2.0 file with a trigger and an event; an AEDAT4 file with an event and two frames."""
+    """An AEDAT 2.0 file with a trigger and an event; AEDAT4 with an event and two frames."""
     chip = b"#!AER-DAT2.0\r\n# AEChip: davis.Davis346B\r\n"
     records = [(1 << 10 | 1 << 22, 6), (1 << 31 | 1 << 10, 7), (1 << 31 | 1 << 10, 9)]
     body = b"".join(struct.pack(">II", *one) for one in records)
