@@ -255,6 +255,12 @@ def test_the_camera_moves_on_above_the_ground_and_through_nothing(place, directi
         assert np.all(np.linalg.norm(middles - position, axis=1) > 0.3 * reach)
 
 
+@pytest.mark.parametrize("place", PLACES)
+def test_a_camera_that_travels_with_a_view_from_the_top_looks_down_in_rooms_too(place):
+    scene = stage(camera=Camera((CameraMove("travel", "forward"),), view="top"), place=place)
+    assert all(scene.camera(time).rotation[2, 2] < -0.9 for time in TIMES)
+
+
 def test_a_vehicle_ahead_keeps_its_distance_and_oncoming_ones_pass():
     scene = travel(
         "road", "forward", thing("truck", ("drive",)), thing("car", ("drive", "towards"))
