@@ -30,7 +30,7 @@ from texvent_scenes.models.materials import (
 )
 from texvent_scenes.models.people.prop_motions import PropMotion, read_motion
 from texvent_scenes.models.protocol import ModelPart, choose, paint
-from texvent_scenes.models.shapes import ball
+from texvent_scenes.models.shapes import ball, bounds
 from texvent_scenes.models.surfaces import FIXED_HUES, PAINT, Painted
 from texvent_scenes.models.tables import frozen, nouns_with, read_table, trait_value
 from texvent_scenes.rendered_scene import Colour
@@ -158,6 +158,8 @@ def draw_shape(name: str) -> Sequence[ModelPart]:
     return Painted(FIXED_HUES, table["surfaces"]).draw_lines(table["shapes"][name])
 
 
+_SOLES = frozenset({"soles", "left sole", "right sole", "deck"})
+"""Places of what is under the feet: skis, boards."""
 Draw = Callable[..., Sequence[ModelPart]]
 """Parts at a time, s; of several things, with their number as "count"."""
 
@@ -167,7 +169,7 @@ class Prop:
     """Something that goes with a place of the body."""
 
     anchor: str
-    """Place of `anchors.locate`; "ground" = body coordinates."""
+    """Place of `anchors.locate`; "ground" = body coordinates, `_SOLES` = below the feet."""
     draw: Draw
     """Its shapes at a time, s, in the axes of that place, m."""
     nouns: tuple[str, ...] = ()
@@ -180,6 +182,16 @@ class Prop:
     """Number of its nouns' things."""
     under: tuple[tuple[str, Draw], ...] = ()
     """Nouns, and its shapes where one is said: a bench with cupboards is a counter."""
+
+    @property
+    def is_below(self) -> bool:
+        """Whether who has it stands by it or on it."""
+        return self.anchor == "ground" or self.anchor in _SOLES
+
+    @property
+    def thickness_m(self) -> float:
+        """Height to which it raises the soles, m."""
+        return -float(bounds(self.draw(0.0))[0][2]) if self.anchor in _SOLES else 0.0
 
     def as_said(self, count: int, colour: Colour | None, noun: str = "") -> Prop:
         """The prop as a noun, in a colour, None for its own, and in a number if it has several."""
@@ -286,7 +298,7 @@ def _scaled(prop: Prop, size: float, *, is_between: bool) -> Prop:
 
     There too if something is between the hands, as what is poured from one into the other.
     """
-    if size == 1.0 or not (is_between or prop.anchor in ("ground", "torso")):
+    if size == 1.0 or not (is_between or prop.is_below or prop.anchor == "torso"):
         return prop
 
     def scale(draw: Draw) -> Draw:
