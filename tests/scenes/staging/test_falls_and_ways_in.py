@@ -202,3 +202,30 @@ def test_who_jumps_into_something_is_outside_first_and_comes_over_its_rim(text, 
 )
 def test_a_jump_into_something_that_is_not_seen_is_told(text):
     assert any("jump" in one for one in staged(text)[1].not_shown)
+
+
+@pytest.mark.parametrize(
+    ("text", "noun"),
+    [("a wall topples", "wall"), ("a street lamp falls over", "street lamp"),
+     ("a fence falls over", "fence"), ("a ladder topples", "ladder"),
+     ("a dog knocks over a brick wall", "brick wall")],
+)  # fmt: skip
+def test_what_topples_comes_to_lie_on_the_ground_and_not_in_it(text, noun):
+    one = actor_of(text, noun)
+    up = one.track.at(CLIP_S).to_world()[:3, 2]
+    assert not faults(text)
+    assert abs(up[2]) < 0.05
+    assert abs(one.lowest_m(CLIP_S)) < 0.03
+    assert min(one.lowest_m(at) for at in np.linspace(0.0, CLIP_S, 41)) > -0.05
+
+
+@pytest.mark.parametrize(
+    ("text", "noun"),
+    [("a clock on a wall falls", "clock"), ("a painting on a wall falls", "painting"),
+     ("a mirror on a wall falls", "mirror")],
+)  # fmt: skip
+def test_what_hangs_on_a_wall_falls_to_the_floor(text, noun):
+    one, wall = actor_of(text, noun), actor_of(text, "wall")
+    assert not faults(text)
+    assert one.lowest_m(0.0) > 0.2 * wall.model.height
+    assert abs(one.lowest_m(CLIP_S)) < 0.03

@@ -374,6 +374,9 @@ def _hang_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
     group.plan = replace(group.plan, yaw=target.plan.yaw)
     group.fit()
     low_m = max(_HUNG * wall.height - 0.5 * own.height, 0.02 * wall.height)
+    if group.plan.motion.kind == "fall":  # to the foot of the wall
+        group.plan = replace(group.plan, start_m=low_m)
+        low_m = 0.0
     return target.to_world(face_m + 0.5 * own.length, 0.0, low_m + group.origin_m)
 
 
