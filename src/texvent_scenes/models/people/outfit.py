@@ -61,6 +61,8 @@ class PersonKind:
     """Material of the shirt, one of `MATERIALS`; "" = plain cloth."""
     leg_fabric: str = ""
     """The same of the trousers."""
+    pattern: Colour | None = None
+    """Second colour of a pattern of these; None = one that contrasts."""
     has_sleeves: bool = False
     """Whether the shirt covers the forearms."""
     gloves: Colour | None = None
@@ -86,8 +88,9 @@ CLOTHES: Mapping[str, Mapping[str, Any]] = read_table("outfits")["worn"]
 """Noun of clothes that show on a body and not as a thing of their own → what they change."""
 
 
-Worn: TypeAlias = tuple[str, Colour | None, str]
-"""A noun of `CLOTHES`, its colour, None for the usual one, and its material, or ""."""
+Worn: TypeAlias = tuple[str, Colour | None, str, Colour | None]
+"""A noun of `CLOTHES`, its colour, None for the usual one, its material, or "", and the second
+colour of a pattern, None for one that contrasts."""
 
 
 _DARKER = 0.3
@@ -102,8 +105,8 @@ def can_be_worn(noun: str) -> bool:
 def put_on(kind: PersonKind, worn: Iterable[Worn]) -> PersonKind:
     """A kind of person in what it wears."""
     worn = tuple(worn)
-    is_dressed = any(CLOTHES[noun].get("dress") == "skirt" for noun, _, _ in worn)
-    for noun, said, material in worn:
+    is_dressed = any(CLOTHES[noun].get("dress") == "skirt" for noun, *_ in worn)
+    for noun, said, material, other in worn:
         row = CLOTHES[noun]
         own = MATERIALS[material].colour if material else None
         own = own and shade(own, _DARKER)  # no bare skin
@@ -114,7 +117,7 @@ def put_on(kind: PersonKind, worn: Iterable[Worn]) -> PersonKind:
         garments = (*kind.garments, *changed.pop("garments", ()))
         for field, part in (("fabric", "shirts"), ("leg_fabric", "trousers")):
             if material and part in row["painted"]:
-                changed[field] = material
+                changed |= {field: material, "pattern": other}
         kind = replace(kind, garments=garments, **changed)
         if colour is not None:
             painted: dict[str, Any] = {
@@ -128,10 +131,12 @@ def dress_person(kind: PersonKind, *, colour: Colour | None, seed: int) -> Paint
     """Skin, hair and clothes of one person: surfaces of the parts of a figure."""
     flesh = skin(choose(seed, "skin", SKIN_TONES))
     dyed = paint(colour, seed, "shirt", kind.shirts)
-    shirt = MATERIALS[kind.fabric].in_colour(dyed) if kind.fabric else cloth(dyed)
+    shirt = MATERIALS[kind.fabric].in_colour(dyed, kind.pattern) if kind.fabric else cloth(dyed)
     usual = choose(seed, "trousers", ((0.03, 0.05, 0.12), (0.06, 0.055, 0.05)))
     dyed = usual if kind.trousers is None else kind.trousers
-    trousers = MATERIALS[kind.leg_fabric].in_colour(dyed) if kind.leg_fabric else cloth(dyed)
+    trousers = (
+        MATERIALS[kind.leg_fabric].in_colour(dyed, kind.pattern) if kind.leg_fabric else cloth(dyed)
+    )
     shoes = DARK if kind.dress != "shorts" else Material((0.6, 0.6, 0.58))
     legs = flesh if kind.dress == "skirt" else trousers
     shins = trousers if kind.dress == "trousers" else flesh

@@ -375,7 +375,12 @@ def dressed(description: SceneDescription, index: int, nouns: Mapping[str, Noun]
         if put and one.kind == "on" and index == one.subject:
             return replace(nouns[put], name=noun.name)
     worn = [
-        (objects[target].noun, rgb_of(objects[target].colour), objects[target].material or "")
+        (
+            objects[target].noun,
+            rgb_of(objects[target].colour),
+            objects[target].material or "",
+            rgb_of(objects[target].second_colour),
+        )
         for one in description.relations
         if one.kind == "wear" and one.subject == index
         for target in one.targets

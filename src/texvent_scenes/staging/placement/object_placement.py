@@ -165,7 +165,10 @@ class ObjectPlacer:
         self.notes.extend(note_alike(noun, seeds, told))
         models: list[Model] = [
             in_material(
-                noun.build(colour=colour, scale=size, seed=seed), scene_object.material, colour
+                noun.build(colour=colour, scale=size, seed=seed),
+                scene_object.material,
+                colour,
+                rgb_of(scene_object.second_colour),
             )
             for seed in seeds
         ]
