@@ -16,7 +16,9 @@ AFLOAT_MOTIONS = ("sail", "paddle")
 AT_HAND = frozenset({"hold", "wear", "act on"})
 IN_WATER = ("swim", "surf", "plunge", *AFLOAT_MOTIONS)
 _PLACES_OF_TRAVEL = {"drive": "road", "cycle": "road", "sail": "sea", "swim": "underwater"}
-_NO_GROUND = ("sky", "space", "underwater")
+_BEDS = {None: "underwater", "sea": "underwater", "lake": "lake bed", "river": "lake bed"}
+"""Waters, or no place, in which all dive → their beds."""
+_NO_GROUND = ("sky", "space", "underwater", "lake bed")
 _FAST_FLYER_M_S = 9.0
 """Speed above which what flies is shown in the sky, far from the ground."""
 _BORNE = ("on", "in", "ride", "under", "above")
@@ -40,8 +42,8 @@ def choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> st
     said, usual = description.place, _usual_place(members, description, kinds)
     dives = all(noun.habitat == "water" and noun.motion not in AFLOAT_MOTIONS for noun in members)
     dives = dives and bool(members) and "jump" not in kinds
-    if dives and said.name in (None, "sea", "lake", "river"):
-        return "underwater"
+    if dives and said.name in _BEDS:
+        return _BEDS[said.name]
     if said.name == "sea":
         return "beach" if _stands_ashore(description, nouns) else "sea"
     if said.name == "sky" and any(noun.habitat == "fixed" for noun in members):

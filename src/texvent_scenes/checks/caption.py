@@ -324,7 +324,7 @@ def _tell_side(staged: StagedClip, one: Actor, body: BodyBoxes, view: View) -> s
 
 def _tell_props(one: Actor) -> str:
     """Things in its hands."""
-    props = [prop.nouns[0] for prop in one.props if prop.nouns]
+    props = [*dict.fromkeys(prop.nouns[0] for prop in one.props if prop.nouns)]
     return f"with a {join_words(props)}" if props else ""
 
 

@@ -61,11 +61,12 @@ def find_unlike(
         other = next((prop.nouns[0] for prop in props if prop.nouns[0] != thing.noun), "")
         if other and not bodies:
             yield Violation("noun", thing.noun, f"the {thing.noun}: a {other} is drawn")
-        rgb = find_colour(thing.colour, SURFACES) if thing.colour else None
         drawn = bodies or [[part] for part in parts]
         is_so = all if bodies else any
-        if rgb is not None and not is_so(has_colour(each, rgb, _TINGE) for each in drawn):
-            yield Violation("colour", str(thing.colour), "")
+        for colour in filter(None, (thing.colour, thing.second_colour)):
+            rgb = find_colour(colour, SURFACES)
+            if not is_so(has_colour(each, rgb, _TINGE) for each in drawn):
+                yield Violation("colour", colour, "")
         kind = MATERIALS[thing.material].texture if thing.material else None
         if kind is not None and not is_so(is_made_of(each, kind) for each in drawn):
             yield Violation("material", str(thing.material), "")

@@ -52,6 +52,9 @@ _PROTRUDING, _SUNKEN, _OVERHANG = 0.12, 0.2, 2.5
 """Share of the size of what is in a container that may be beyond its sides, and least share of its
 height below the rim; most extent of it, in those of the container, that does not hide it."""
 
+_SHALLOW_M = 0.06
+"""Height of what one stands in as on the ground, m: a puddle."""
+
 
 def are_still(*bodies: BodyBoxes) -> bool:
     """Whether bodies stay in their places."""
@@ -64,6 +67,11 @@ def _within(one: BodyBoxes, other: BodyBoxes, axes: int, share: float = 0.0) -> 
     """Whether its middle is in the other's box, grown by a share of its own size, along `axes`."""
     room = 0.55 * other.size + share * one.size + 0.02
     return np.asarray((np.abs(one.middle - other.middle) <= room)[:, :axes].all(axis=1))
+
+
+def _is_shallow(other: BodyBoxes) -> _Flags:
+    """Whether it is so low that what is in it stands on the ground below it: a puddle."""
+    return np.asarray(other.size[:, 2] <= _SHALLOW_M)
 
 
 def _is_amid(one: BodyBoxes, other: BodyBoxes) -> _Flags:
@@ -359,7 +367,7 @@ RULES: Mapping[str, _Rule] = {
     "overtake": _overtakes, "going beside": _goes_beside,
     "facing": _faces, "sent": _is_sent,
     "past": lambda one, other: _is_passing(one, other, 0.5 * are_still(other)),
-    "in": lambda one, other: _within(one, other, 3),
+    "in": lambda one, other: _within(one, other, 3) | (_is_shallow(other) & _is_on(one, other)),
     "front of what drives": _crosses_before,
     "front in a lane": lambda one, other: _is_in_lane(one, other, 1),
     "behind in a lane": lambda one, other: _is_in_lane(one, other, -1), "stopped": _is_stopped,

@@ -105,7 +105,9 @@ def find_violations(
         is_into = one.kind == "in" and has_rim(description.objects[one.targets[0]].noun)
         kind = "down into" if who in handled and is_into else kind
         ends = [slice(1), slice(-1, None)] if who in handled and not is_into else [slice(None)]
-        if kind == "on" and one.targets[0] in down:  # it goes down with what is knocked over
+        falls = any(each.kind == "fall" for each in description.objects[who].motions)
+        is_first = (kind == "on" and one.targets[0] in down) or (kind == "hung" and falls)
+        if is_first:  # it goes down with what is knocked over, or off the wall
             ends = [slice(1)]
         held = [any(holds(kind, body.cut(when), [each.cut(when) for each in others], at_end=goes_on)
                     for when in ends) for body in own]  # fmt: skip

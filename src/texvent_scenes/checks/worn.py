@@ -63,7 +63,7 @@ def _dyed(scene: ComposedScene, subject: int, clothes: str, dye: Colour) -> Comp
             return one
         usual = NOUNS[one.noun.name]
         scale = size_of(one.model) / size_of(usual.build(colour=None, scale=1.0, seed=0))
-        noun = dress(usual, [(clothes, dye, "")])
+        noun = dress(usual, [(clothes, dye, "", None)])
         return replace(one, model=noun.build(colour=None, scale=scale, seed=0))
 
     return replace(scene, actors=tuple(map(worn, scene.actors)))

@@ -65,8 +65,8 @@ class Limb:
     Its channels: `reach` and `spot`, the end as a vector from the root in the axes of `on` and as a
     point in those of `ground`, and `free`, the share of the first; they add up, so postures mix
     number by number. `bend` is the direction of elbow or knee, `pitch` the downward turn of the
-    end, `tool` the upright of a hand. All are forward, outward, up. `posture` makes them of those
-    that tables of activities have.
+    end and `roll` that to the right, `tool` the upright of a hand. All are forward, outward, up.
+    `posture` makes them of those that tables of activities have.
     """
 
     name: str
@@ -106,7 +106,9 @@ class Limb:
             x, z = foot_path(steps, said["lead"][0])
             end = (end[0] + x, end[1], end[2] + (said["rise"] or (1.0,))[0] * z)
             pitch += (said["toes"] or (0.0,))[0] * z / steps.gait.lift
-        return self.at(end, said["elbow"] or said["knee"], is_free=is_free, pitch=pitch)
+        (roll,) = said["roll"] or (0.0,)
+        bend = said["elbow"] or said["knee"]
+        return self.at(end, bend, is_free=is_free, pitch=pitch, roll=roll)
 
     @cached_property
     def _channel_of(self) -> Mapping[str, str]:
@@ -115,13 +117,13 @@ class Limb:
 
     def at(
         self, end: Numbers, bend: Numbers | None = None, *, is_free: bool = False,
-        pitch: float = 0.0,
+        pitch: float = 0.0, roll: float = 0.0,
     ) -> Values:  # fmt: skip
         """Its channels with the end at a point of the body, or that far from its root."""
         away, there = (end, (0.0,) * 3) if is_free else ((0.0,) * 3, end)
         found = {
             "reach": away, "spot": there, "free": (float(is_free),), "bend": bend or self.bend,
-            "pitch": (pitch,),
+            "pitch": (pitch,), "roll": (roll,),
         }  # fmt: skip
         return {f"{self.channels}.{name}": numbers for name, numbers in found.items()}
 
@@ -148,7 +150,8 @@ class Limb:
         if self.holds:
             turned = _held(trunk, end - joint, trunk[:, :3] @ self._read(now, "tool"))
         else:
-            turned = ground[:, :3] @ rotation("y", now.channels[f"{self.channels}.pitch"])
+            pitch, roll = (now.channels[f"{self.channels}.{one}"] for one in ("pitch", "roll"))
+            turned = ground[:, :3] @ rotation("x", roll) @ rotation("y", pitch)
         return {
             f"upper {self.name}": placed_along(point(root), point(joint)),
             f"lower {self.name}": placed_along(point(joint), point(end)),
@@ -168,7 +171,7 @@ class Limb:
 
 
 _SAID = (
-    "hand", "foot", "swing", "fixed", "elbow", "knee", "pitch", "lead", "rise", "toes",
+    "hand", "foot", "swing", "fixed", "elbow", "knee", "pitch", "roll", "lead", "rise", "toes",
 )  # fmt: skip
 """Channels of a limb in tables of activities."""
 

@@ -83,9 +83,9 @@ class NamedMaterial:
     scale: float = 1.0
     """As of `Material`."""
 
-    def in_colour(self, colour: Colour) -> Material:
-        """It in a colour, with which a pattern contrasts."""
-        second = _contrast(colour) if self.texture in _PATTERNS else self.second_colour
+    def in_colour(self, colour: Colour, other: Colour | None = None) -> Material:
+        """It in a colour, with another one, or one that contrasts, in a pattern."""
+        second = (other or _contrast(colour)) if self.texture in _PATTERNS else self.second_colour
         return made_of(self.texture, colour, second, scale=self.scale)
 
 
@@ -161,6 +161,8 @@ CLOTH_COLOURS: tuple[Colour, ...] = (
 
 
 _PATTERNS = frozenset({Texture.STRIPES, Texture.CHECKS, Texture.MOTTLED})
+PATTERNED = tuple(name for name, one in MATERIALS.items() if one.texture in _PATTERNS)
+"""Materials of two colours."""
 _BRIGHT = 0.3
 
 
@@ -176,17 +178,21 @@ _OWN_SHARE = 0.25
 class OverriddenModel:
     """A model whose parts are all of one material; lamps and glass that glows stay."""
 
-    def __init__(self, model: Model, material: NamedMaterial, colour: Colour | None) -> None:
+    def __init__(
+        self, model: Model, material: NamedMaterial, colour: Colour | None,
+        other: Colour | None = None,
+    ) -> None:  # fmt: skip
         """Keep the model.
 
         Args:
             model: as the noun builds it.
             material: what it is made of.
             colour: what the prompt says; None = the material's usual one, or each part's own.
+            other: of a pattern; None = one that contrasts.
         """
         self._model = model
         self._material = material
-        self._colour = colour
+        self._colour, self._other = colour, other
         self.length, self.width, self.height = model.length, model.width, model.height
 
     def __getattr__(self, name: str) -> Any:
@@ -213,7 +219,7 @@ class OverriddenModel:
             usual = sum(wanted) / 3.0
             factor = 1.0 + _OWN_SHARE * (min(own / max(usual, 1e-3), 2.0) - 1.0)
             colour = mix((0.0, 0.0, 0.0), wanted, factor)
-        surface = self._material.in_colour(colour)
+        surface = self._material.in_colour(colour, self._other)
         return replace(
             part,
             colour=surface.colour,
@@ -223,9 +229,14 @@ class OverriddenModel:
         )
 
 
-def in_material(model: Model, name: str | None, colour: Colour | None) -> Model:
-    """A model in one of `MATERIALS`; a colour wins over the material's own, None is as usual."""
-    return model if name is None else OverriddenModel(model, MATERIALS[name], colour)
+def in_material(
+    model: Model, name: str | None, colour: Colour | None, other: Colour | None = None
+) -> Model:
+    """A model in one of `MATERIALS`; a colour wins over the material's own, None is as usual.
+
+    `other` is the second colour of a pattern.
+    """
+    return model if name is None else OverriddenModel(model, MATERIALS[name], colour, other)
 
 
 _NEAR, _HUED, _LEAST_PART = 0.28, 0.12, 0.06

@@ -131,6 +131,9 @@ def _relate_act(draft: SceneDraft, kind: str, verb: Token, index: int, objects: 
         return lead_on(draft, verb, index, objects)
     if kind == "load":
         return bear_on(draft, verb, index, objects)
+    if kind == "in" and draft.does([who]) == {"jump"}:  # and stays there
+        draft.things[who]["motions"].append({"kind": "stand"})
+        draft.claim(verb, "arrive", "in", [who], objects)
     is_left = kind == "out of" and bool(objects) and relate_one(draft, kind, who, objects)
     if (is_left or draft.relate(who, kind, objects)) and kind in WAYS:
         way = draft.things[who]["relations"][-1]["kind"]  # from a stop, along a platform

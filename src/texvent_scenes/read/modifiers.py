@@ -10,7 +10,7 @@ from texvent_scenes.colours import SURFACES
 from texvent_scenes.description import SEEN
 from texvent_scenes.models.activities import ACTIVITIES
 from texvent_scenes.models.effects import LAMPS
-from texvent_scenes.models.materials import has_colour
+from texvent_scenes.models.materials import PATTERNED, has_colour
 from texvent_scenes.models.protocol import Pose
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.read.acts import perform
@@ -46,9 +46,14 @@ def say_modifiers(draft: SceneDraft, group: Group, index: int) -> None:
     painted = _find_paint(draft, index, [*colours.values()])
     own = [one for one, colour in colours.items() if painted and colour != painted[0]]
     sizes = _list_numbers(draft, group, index)
+    other = None if painted else _find_pattern(draft, group, index, colours)
     for token in (one for one in group.modifiers if one not in sizes):
         if token in own:
             draft.claim(token, "colour", colours[token], [index])
+            continue
+        if token is other:
+            draft.things[index]["second_colour"] = colours[token]
+            draft.show(token)
             continue
         if token.text in word_set("things", "rows"):
             draft.claim(token, "row", "along", [index])
@@ -60,6 +65,8 @@ def say_modifiers(draft: SceneDraft, group: Group, index: int) -> None:
         draft.things[index] |= {"placement": token.text} if is_side else {}
         first = sorted(token.senses, key=lambda one: one.kind != "field")  # "a low fence"
         say_word(draft, replace(token, senses=tuple(first)), [] if is_side else [index])
+    if other is not None:
+        draft.things[index].setdefault("material", "striped")
     for token in sizes:
         thing = draft.things[index]
         thing["count"] = max(2, round(thing["count"] * token.value("field")[1]))
@@ -80,6 +87,18 @@ def _find_paint(draft: SceneDraft, index: int, colours: Sequence[str]) -> list[s
 
     tried = (None, *colours) if len({*colours}) > 1 else ()
     return next(([one] for one in tried if has_all(one)), [])
+
+
+def _find_pattern(
+    draft: SceneDraft, group: Group, index: int, colours: Mapping[Token, str]
+) -> Token | None:
+    """The second of two colours, of what has a pattern or may be striped: "a red and blue ball"."""
+    said = {one.value("field")[1] for one in group.modifiers if one.says("field", "material")}
+    noun, both = draft.things[index]["noun"], [*colours]
+    is_patterned = bool(said & {*PATTERNED}) if said else noun in nouns_with(
+        "striped in two colours"
+    )  # fmt: skip
+    return both[1] if len(both) == len({*colours.values()}) == 2 and is_patterned else None
 
 
 def _list_numbers(draft: SceneDraft, group: Group, index: int) -> list[Token]:

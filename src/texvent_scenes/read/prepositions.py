@@ -159,11 +159,10 @@ def go_to_place(
     for thing in (draft.things[one] for one in subjects if token.text == "on"):
         is_flyer = draft.nouns[thing["noun"]].habitat == "air" and not names & _WATERS
         thing["motions"] = thing["motions"] or [{"kind": "stand"}] * is_flyer  # "on a runway"
-    on_foot = any(map(draft.keeps_to_ground, subjects)) and bool(names & _WATERS)
     is_flat = token.text in ("up", "down") and {one.text for one in heads} & word_set(
         "things", "steep"
     )
-    is_in = on_foot and token.text in ("through", "in", "into")
+    is_in = bool(names & _WATERS) and _wade(draft, token, subjects)
     rises = draft.does(moved) == {"rise"}
     does = {each["kind"] for one in moved for each in draft.things[one]["motions"][-1:]}
     at_home = _AT_HOME.get((token.text, "".join(names)), set())
@@ -189,6 +188,15 @@ def go_to_place(
         said = token.text == "on" and place is PLACES["road"]  # else a fence stands beside it
         if draft.walks(index) or (said and draft.noun(index).motion != "drive"):
             draft.things[index].setdefault("placement", "lane")
+
+
+def _wade(draft: SceneDraft, token: Token, subjects: Indices) -> bool:
+    """Whether things of the ground are in water, where they may swim at most."""
+    is_in = token.text in ("through", "in", "into")
+    is_in &= any(map(draft.keeps_to_ground, subjects))
+    for index in subjects if is_in and token.text == "in" else ():
+        draft.things[index]["waded_at"] = token.at
+    return is_in
 
 
 def _keep_above(draft: SceneDraft, token: Token, place: PlaceModel, subjects: Indices) -> None:

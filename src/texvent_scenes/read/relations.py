@@ -235,7 +235,7 @@ def _has_bench(thing: Mapping[str, Any]) -> bool:
     """Whether an act comes with a bench of its own, which stands on no bed."""
     acts = [one["kind"] for one in thing["motions"]]
     acts = [one for one in acts if one in ACTIVITIES and ACTIVITIES[one].is_at_bench]
-    return any(prop.anchor == "ground" for one in acts for prop in list_props(one))
+    return any(prop.is_below for one in acts for prop in list_props(one))
 
 
 def _works(thing: Mapping[str, Any]) -> bool:
@@ -251,8 +251,8 @@ def _use(thing: Mapping[str, Any], noun: str) -> str:
     acts = [one["kind"] for one in thing["motions"]]
     acts += [ON_TOP[one["kind"]] for one in thing["relations"] if one["kind"] in ON_TOP]
     props = [prop for one in acts for prop in list_props(one)]
-    used = [one.anchor for one in props if noun in one.nouns]
-    return "beside" if "ground" in used else "hold" if used else ""
+    used = [one.is_below for one in props if noun in one.nouns]
+    return "beside" if any(used) else "hold" if used else ""
 
 
 def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> str:

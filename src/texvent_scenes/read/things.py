@@ -53,7 +53,8 @@ def pick_group(draft: SceneDraft, group: Group, known: int) -> list[int]:
     elif not group.picks or (draft.last.is_lost and not whole):
         return []  # "three wugs hang, one falls"
     several = find_several(draft, whole)
-    like = several or find_several(draft, least=1) * (group.picks == "another")
+    is_another = group.picks == "another"
+    like = several or (_find_doer(draft) or find_several(draft, least=1)) * is_another
     is_new = bool(like) and (not several or count_like(draft, like[0]) < group.ordinal)
     picked = add_like(draft, like[0]) if is_new else pick(draft, group.picks, group.count, whole)
     which = word_set("things", "members") | ({*ordinals()} if not is_new else set())
@@ -66,6 +67,12 @@ def pick_group(draft: SceneDraft, group: Group, known: int) -> list[int]:
         say_word(draft, token, picked)
         draft.show(*([token] if token.text == group.picks and token.text not in which else []))
     return picked
+
+
+def _find_doer(draft: SceneDraft) -> list[int]:
+    """Who acts on something, as "another" does then: "hits a ball and another catches it"."""
+    acting = (one for one in draft.last.subjects if draft.acts([one]) and draft.walks(one))
+    return [*acting][:1]
 
 
 def _find_hued(draft: SceneDraft, group: Group, known: int) -> list[int]:
@@ -108,7 +115,7 @@ def name_group(
         found = _pose_again(draft, group, head) or _find_all_of(draft, group)
         if not (found or head.at in draft.fates):
             found = _name_thing(draft, group, head)
-    elif not (found := _find_all_of(draft, group) if head is None else []):
+    elif not (found := _find_unnamed(draft, group, relation) if head is None else []):
         _name_others(draft, group, relation, owners)
     phrase = group.of or Phrase(head or NO_TOKEN, ())
     for content in phrase.groups:
@@ -172,6 +179,14 @@ def _fill(draft: SceneDraft, vessels: Indices, content: Group, token: Token) -> 
         for index in name_group(draft, content):
             draft.things[index]["count"] = 2 * PLURAL_COUNT
             draft.show(token)
+
+
+def _find_unnamed(draft: SceneDraft, group: Group, relation: str) -> list[int]:
+    """Things that a group without a noun means: all of some, or one more of who act."""
+    if group.picks == "another" and relation in ("", "to", "towards"):
+        draft.last.nearest = pick_group(draft, group, len(draft.things))
+        return draft.last.nearest
+    return _find_all_of(draft, group)
 
 
 def _find_all_of(draft: SceneDraft, group: Group) -> list[int]:

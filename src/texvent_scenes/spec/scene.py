@@ -139,6 +139,8 @@ class SceneObject:
     """Scale, as a multiple of the usual size."""
     material: Material | None = None
     """Material of the surface."""
+    second_colour: Surface | None = None
+    """Other colour of a striped, checkered or spotted surface; left out: one that contrasts."""
     placement: Placement | None = None
     """Region of the image ("left", "right", "centre", "far", "near") or the road ("lane"); of what
     flies, above the road or the water."""

@@ -22,7 +22,7 @@ from texvent_scenes.default_work import stays_put
 from texvent_scenes.defaults import decide_motions
 from texvent_scenes.description import STANDING, to_description
 from texvent_scenes.models.effects import LAMPS
-from texvent_scenes.models.materials import in_material
+from texvent_scenes.models.materials import PATTERNED, in_material
 from texvent_scenes.models.nouns import MOTIONS
 from texvent_scenes.models.people.outfit import CLOTHES
 from texvent_scenes.models.protocol import Model, Noun, Pose
@@ -278,6 +278,9 @@ def _idle_looks(where: str, one: SceneObject, noun: Noun) -> Iterator[Idle]:
         why = f"a {one.noun} is of it anyway, or cannot be of any other"
         why = "a model of a file has only the colour of a material" if is_mesh else why
         yield Idle(f"{where}.material", why, is_usual)
+    if one.second_colour is not None and one.material not in PATTERNED:
+        why = f"only what is {' or '.join(PATTERNED)} has two colours: give it such a material"
+        yield Idle(f"{where}.second_colour", why)
     for name in ("blink_hz", "switch_s", "is_lit"):
         has_light = noun.name in LAMPS or noun.name in nouns_with("own effect")
         has_light |= name == "blink_hz" and noun.name in nouns_with("flat pattern")

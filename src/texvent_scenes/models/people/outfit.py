@@ -30,7 +30,7 @@ from texvent_scenes.models.materials import (
 )
 from texvent_scenes.models.people.prop_motions import PropMotion, read_motion
 from texvent_scenes.models.protocol import ModelPart, choose, paint
-from texvent_scenes.models.shapes import ball
+from texvent_scenes.models.shapes import ball, bounds
 from texvent_scenes.models.surfaces import FIXED_HUES, PAINT, Painted
 from texvent_scenes.models.tables import frozen, nouns_with, read_table, trait_value
 from texvent_scenes.rendered_scene import Colour
@@ -61,6 +61,8 @@ class PersonKind:
     """Material of the shirt, one of `MATERIALS`; "" = plain cloth."""
     leg_fabric: str = ""
     """The same of the trousers."""
+    pattern: Colour | None = None
+    """Second colour of a pattern of these; None = one that contrasts."""
     has_sleeves: bool = False
     """Whether the shirt covers the forearms."""
     gloves: Colour | None = None
@@ -86,8 +88,9 @@ CLOTHES: Mapping[str, Mapping[str, Any]] = read_table("outfits")["worn"]
 """Noun of clothes that show on a body and not as a thing of their own → what they change."""
 
 
-Worn: TypeAlias = tuple[str, Colour | None, str]
-"""A noun of `CLOTHES`, its colour, None for the usual one, and its material, or ""."""
+Worn: TypeAlias = tuple[str, Colour | None, str, Colour | None]
+"""A noun of `CLOTHES`, its colour, None for the usual one, its material, or "", and the second
+colour of a pattern, None for one that contrasts."""
 
 
 _DARKER = 0.3
@@ -102,8 +105,8 @@ def can_be_worn(noun: str) -> bool:
 def put_on(kind: PersonKind, worn: Iterable[Worn]) -> PersonKind:
     """A kind of person in what it wears."""
     worn = tuple(worn)
-    is_dressed = any(CLOTHES[noun].get("dress") == "skirt" for noun, _, _ in worn)
-    for noun, said, material in worn:
+    is_dressed = any(CLOTHES[noun].get("dress") == "skirt" for noun, *_ in worn)
+    for noun, said, material, other in worn:
         row = CLOTHES[noun]
         own = MATERIALS[material].colour if material else None
         own = own and shade(own, _DARKER)  # no bare skin
@@ -114,7 +117,7 @@ def put_on(kind: PersonKind, worn: Iterable[Worn]) -> PersonKind:
         garments = (*kind.garments, *changed.pop("garments", ()))
         for field, part in (("fabric", "shirts"), ("leg_fabric", "trousers")):
             if material and part in row["painted"]:
-                changed[field] = material
+                changed |= {field: material, "pattern": other}
         kind = replace(kind, garments=garments, **changed)
         if colour is not None:
             painted: dict[str, Any] = {
@@ -128,10 +131,12 @@ def dress_person(kind: PersonKind, *, colour: Colour | None, seed: int) -> Paint
     """Skin, hair and clothes of one person: surfaces of the parts of a figure."""
     flesh = skin(choose(seed, "skin", SKIN_TONES))
     dyed = paint(colour, seed, "shirt", kind.shirts)
-    shirt = MATERIALS[kind.fabric].in_colour(dyed) if kind.fabric else cloth(dyed)
+    shirt = MATERIALS[kind.fabric].in_colour(dyed, kind.pattern) if kind.fabric else cloth(dyed)
     usual = choose(seed, "trousers", ((0.03, 0.05, 0.12), (0.06, 0.055, 0.05)))
     dyed = usual if kind.trousers is None else kind.trousers
-    trousers = MATERIALS[kind.leg_fabric].in_colour(dyed) if kind.leg_fabric else cloth(dyed)
+    trousers = (
+        MATERIALS[kind.leg_fabric].in_colour(dyed, kind.pattern) if kind.leg_fabric else cloth(dyed)
+    )
     shoes = DARK if kind.dress != "shorts" else Material((0.6, 0.6, 0.58))
     legs = flesh if kind.dress == "skirt" else trousers
     shins = trousers if kind.dress == "trousers" else flesh
@@ -158,6 +163,8 @@ def draw_shape(name: str) -> Sequence[ModelPart]:
     return Painted(FIXED_HUES, table["surfaces"]).draw_lines(table["shapes"][name])
 
 
+_SOLES = frozenset({"soles", "left sole", "right sole", "deck"})
+"""Places of what is under the feet: skis, boards."""
 Draw = Callable[..., Sequence[ModelPart]]
 """Parts at a time, s; of several things, with their number as "count"."""
 
@@ -167,7 +174,7 @@ class Prop:
     """Something that goes with a place of the body."""
 
     anchor: str
-    """Place of `anchors.locate`; "ground" = body coordinates."""
+    """Place of `anchors.locate`; "ground" = body coordinates, `_SOLES` = below the feet."""
     draw: Draw
     """Its shapes at a time, s, in the axes of that place, m."""
     nouns: tuple[str, ...] = ()
@@ -180,6 +187,16 @@ class Prop:
     """Number of its nouns' things."""
     under: tuple[tuple[str, Draw], ...] = ()
     """Nouns, and its shapes where one is said: a bench with cupboards is a counter."""
+
+    @property
+    def is_below(self) -> bool:
+        """Whether who has it stands by it or on it."""
+        return self.anchor == "ground" or self.anchor in _SOLES
+
+    @property
+    def thickness_m(self) -> float:
+        """Height to which it raises the soles, m."""
+        return -float(bounds(self.draw(0.0))[0][2]) if self.anchor in _SOLES else 0.0
 
     def as_said(self, count: int, colour: Colour | None, noun: str = "") -> Prop:
         """The prop as a noun, in a colour, None for its own, and in a number if it has several."""
@@ -286,7 +303,7 @@ def _scaled(prop: Prop, size: float, *, is_between: bool) -> Prop:
 
     There too if something is between the hands, as what is poured from one into the other.
     """
-    if size == 1.0 or not (is_between or prop.anchor in ("ground", "torso")):
+    if size == 1.0 or not (is_between or prop.is_below or prop.anchor == "torso"):
         return prop
 
     def scale(draw: Draw) -> Draw:

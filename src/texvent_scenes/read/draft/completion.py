@@ -57,6 +57,16 @@ def _ride_on(draft: SceneDraft) -> None:
             draft.things[mount]["motions"] = [{"kind": "move"}]
 
 
+def _swim(draft: SceneDraft) -> None:
+    """Let animals swim that are in a water and do nothing else: "a hippo in a river"."""
+    for one in draft.things:
+        at = one.pop("waded_at", None)
+        is_open = not (one["motions"] or one["relations"] or "is_lost" in one)
+        if at is not None and is_open and one["noun"] not in PERSON_NOUNS:
+            one["motions"] = [{"kind": "swim"}]
+            draft.fates[at] = "shown"
+
+
 def _do_deeds(draft: SceneDraft) -> None:
     """Let those do it who are named by what they do and do nothing else: "a violinist"."""
     for index, one in enumerate(draft.things):
@@ -307,8 +317,8 @@ def _stand_tall(draft: SceneDraft) -> None:
 
 
 _DECISIONS: tuple[Callable[[SceneDraft], object], ...] = (
-    _choose_gender, _look_at_held, _lead_view, _ride_on, _do_deeds, _find_opponents, _hang_up,
-    _stand_level, _tell_riders, _tell_stars, _tell_above_ground, find_sources, leave_sky,
+    _choose_gender, _look_at_held, _lead_view, _ride_on, _swim, _do_deeds, _find_opponents,
+    _hang_up, _stand_level, _tell_riders, _tell_stars, _tell_above_ground, find_sources, leave_sky,
     _turn_marks, _skate_on_ice, _bring_home, _limit_counts, _look_up, _bring_weather, _claim_levels,
     _pass_fixed, _stand_tall,
 )  # fmt: skip

@@ -415,7 +415,8 @@ class _Parser(GroupReader):
             start = self._at
             self._take()
             group = self._group()
-            is_subject = group.article or group.is_plural
+            is_another = any(one.text == "another" for one in group.words)
+            is_subject = bool(group.article) or group.is_plural or is_another
             small = nouns_with("in hand or on something")
             is_kept = any(can_be_worn(one) or one in small for one in nouns_of([group]))
             is_subject = is_subject and not (is_kept or self._share_verb((*found, group)))

@@ -14,7 +14,7 @@ from texvent_scenes.staging.actors import Actor, seeded
 
 ELEVATIONS = {"aerial": 0.80, "top": 1.45, "low": -0.25, "first person": 0.05}
 """View → elevation of the camera, rad; a low one ends at the ground."""
-_PLACE_ELEVATIONS = {"sky": -0.42, "space": -0.1, "underwater": 0.04}
+_PLACE_ELEVATIONS = {"sky": -0.42, "space": -0.1, "underwater": 0.04, "lake bed": 0.04}
 _ROOM_ELEVATION, _INTO_IT, _ONTO_STRIP, _ONTO_FLAT, _FLAT_IN_ROOM = 0.24, 0.6, 0.16, 0.5, 0.3
 """Elevation in rooms, from which one sees into an open container, a runway as a strip, what lies
 flat, and that with a wall of the room that is said, rad."""

@@ -74,7 +74,7 @@ def perform_acts(
     _swing_riders(cast, description.relations)
     _carry_along(cast, placed, description.relations)
     for person in list(cast.values()):
-        nouns = {noun for prop in person.props if prop.anchor == "ground" or prop.is_own
+        nouns = {noun for prop in person.props if prop.is_below or prop.is_own
                  for noun in prop.nouns}  # fmt: skip
         for number, thing in list(cast.items()):
             if thing.noun.name in nouns and thing.object_index != person.object_index:

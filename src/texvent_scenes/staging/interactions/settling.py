@@ -269,7 +269,7 @@ def _implied_acts(
         props = [prop for motion in motions for prop in list_props(motion.kind)]
         for prop in props:
             free = [n for n, one in enumerate(objects) if one.noun in prop.nouns and n not in bound]
-            if free and prop.anchor != "ground" and not prop.is_own:
+            if free and not (prop.is_below or prop.is_own):
                 found.append(IndexedRelation("hold", index, (free[0],)))
                 bound.add(free[0])
     return found

@@ -18,7 +18,7 @@ from texvent_scenes.rendered_scene import (
 from texvent_scenes.staging.actors import Actor
 from texvent_scenes.staging.camera.camera_track import CameraTrack
 
-_NO_GROUND = ("sky", "space", "underwater")
+_NO_GROUND = ("sky", "space", "underwater", "lake bed")
 TINY_M = 5e-6
 """Half extent of a particle that is not there at the moment: the caster leaves it out."""
 

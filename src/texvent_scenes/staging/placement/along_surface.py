@@ -26,6 +26,9 @@ _LEAST_HOP_M = 0.25
 """Height of a leap above what it leads onto, for small bodies, m."""
 _MOST_RUN_UP_M_S = 4.0
 """Most usual speed of a run-up."""
+_RUN_IN = 0.6
+"""Distance that what jumps into something keeps from it more than what jumps onto it, in its own
+lengths."""
 _LEAST_GOING_S = 0.1
 """Time on a surface of which a body stops at the edge; on a shorter one nothing goes."""
 _HOPS, _HOP_UP = 3, 0.45
@@ -112,13 +115,32 @@ def _approach(group: ObjectGroup, target: ObjectGroup) -> tuple[float, float]:
     return yaw, 0.5 * min(body.length, body.width) + 0.6 * group.models[0].length
 
 
-def leap_up(group: ObjectGroup, target: ObjectGroup, support: Support) -> None:
-    """Have what jumps onto something leap from the ground before it, and stay there."""
-    yaw, far = _approach(group, target)
-    height, wait_s = support.height, 0.3 * group.plan.duration_s
+def is_leap(group: ObjectGroup) -> bool:
+    """Whether what is on or in something comes there by a jump, and stays."""
+    return [one.kind for one in group.scene_object.motions] == ["jump", "stand"]
+
+
+def leap_up(
+    group: ObjectGroup, target: ObjectGroup, height: float, rim_m: float | None = None
+) -> None:
+    """Have what jumps onto something leap from the ground before it, and stay there.
+
+    Args:
+        group: who jumps.
+        target: the thing.
+        height: of the place where it lands above the foot of the thing, m.
+        rim_m: height of the rim over which it goes into the thing, m; None: it has none.
+    """
+    (yaw, far), wait_s = _approach(group, target), 0.3 * group.plan.duration_s
     clear_m = max(0.4 * group.models[0].height, _LEAST_HOP_M)
     flown_s = 0.5 * (flight_s(height + clear_m) + flight_s(clear_m))  # up, and down to it
     hop_m = GRAVITY_M_S2 * flown_s**2 / 8.0
+    if rim_m is not None:  # its front is above the rim when it gets there
+        long_m = group.models[0].length
+        far += _RUN_IN * long_m
+        share = (_RUN_IN + 0.1) * long_m / far
+        hop_m = max(hop_m, (rim_m - height * share) / (4.0 * share * (1.0 - share)))
+        flown_s = flight_s(hop_m)
     leap = Key(flown_s, far / flown_s, 0.0, height / flown_s, 0.0, "jump", hop_m)
     rest_s = max(group.plan.duration_s - wait_s - flown_s, 0.1)
     keys = (Key(wait_s, ramp_s=0.0, activity="stand"), leap,

@@ -350,6 +350,8 @@ _ALIKE_M = 0.01
 """Difference of gaps that are as wide."""
 _ARMS_HANG = frozenset({"stand", "walk", "run", "move"})
 """Acts in which somebody has something under an arm."""
+_LEAPS = frozenset({"jump", "backflip"})
+"""Acts of who goes on with what is on the feet."""
 _SEAT_BACK_M = 0.03
 """Distance of the middle of a chair behind the hips."""
 
@@ -373,7 +375,12 @@ def dressed(description: SceneDescription, index: int, nouns: Mapping[str, Noun]
         if put and one.kind == "on" and index == one.subject:
             return replace(nouns[put], name=noun.name)
     worn = [
-        (objects[target].noun, rgb_of(objects[target].colour), objects[target].material or "")
+        (
+            objects[target].noun,
+            rgb_of(objects[target].colour),
+            objects[target].material or "",
+            rgb_of(objects[target].second_colour),
+        )
         for one in description.relations
         if one.kind == "wear" and one.subject == index
         for target in one.targets
@@ -391,7 +398,7 @@ def choose_props(description: SceneDescription, group: ObjectGroup) -> tuple[Pro
     kinds = dict.fromkeys(motion.kind for motion in said)
     if group.plan.path is not None:  # as the way to a jump
         kinds |= dict.fromkeys(key.activity for key in group.plan.path.keys)
-    if "jump" in kinds:  # with what it is on as it usually goes
+    if kinds.keys() & _LEAPS:  # with what it is on as it usually goes
         kinds[group.noun.motion] = None
     size = size_of(group.models[0])
     props = [prop for kind in kinds for prop in list_props(kind, size)]
@@ -402,7 +409,7 @@ def choose_props(description: SceneDescription, group: ObjectGroup) -> tuple[Pro
         props.append(_draw_chair(size))
     kept = (
         prop for prop in props
-        if prop.anchor == "ground" or prop.is_own or shown.keys().isdisjoint(prop.nouns)
+        if prop.is_below or prop.is_own or shown.keys().isdisjoint(prop.nouns)
     )  # fmt: skip
     named = [(prop, next((shown[one] for one in prop.nouns if one in shown), None))
              for prop in kept]  # fmt: skip

@@ -73,7 +73,7 @@ from texvent_scenes.staging.tracks.motion_plan import (
     raised,
 )
 from texvent_scenes.staging.tracks.phases import haste_of, hovering_m
-from texvent_scenes.staging.tracks.track import Track, seated
+from texvent_scenes.staging.tracks.track import Track, lifted, seated
 
 _MUCH_LARGER = 1.3
 """Beside what is so many times larger, a thing stands nearer to the camera, else further away."""
@@ -165,7 +165,10 @@ class ObjectPlacer:
         self.notes.extend(note_alike(noun, seeds, told))
         models: list[Model] = [
             in_material(
-                noun.build(colour=colour, scale=size, seed=seed), scene_object.material, colour
+                noun.build(colour=colour, scale=size, seed=seed),
+                scene_object.material,
+                colour,
+                rgb_of(scene_object.second_colour),
             )
             for seed in seeds
         ]
@@ -464,13 +467,15 @@ class ObjectPlacer:
         said = (group.plan.motion, *group.scene_object.motions[1:])
         for number, (model, offset) in enumerate(zip(group.models, group.offsets, strict=True)):
             x, y, z = group.centre + np.array(offset)
+            props = choose_props(self._description, group)
             track = self._choose(group, model, (x, y, z), number, rng)
+            track = lifted(track, max((one.thickness_m for one in props), default=0.0))
             actors.append(
                 Actor(
                     group.index, group.noun, model, track,
                     any(motion.is_moving for motion in said),
                     before + number + 1, float(rng.uniform(0.0, 1.0)) if number else 0.0,
-                    choose_props(self._description, group),
+                    props,
                     label=label_of(self._description, group.index),
                     goes_across=any(one.direction == "across" for one in said),
                     haste=haste_of(group.noun, said[0]),

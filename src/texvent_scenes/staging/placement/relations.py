@@ -26,6 +26,7 @@ from texvent_scenes.staging.interactions.holding import hides_riders
 from texvent_scenes.staging.placement.along_surface import (
     carry_along,
     go_down,
+    is_leap,
     leap_over,
     leap_up,
     stop_at_edge,
@@ -296,8 +297,9 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
     if not is_free and _find_room(group, target, support, 1) != support.middle:
         support = find_support(target.models[0], _ROOF * target.models[0].height)
     line_up(group, target, support, neighbours)
-    if [one.kind for one in group.scene_object.motions] == ["jump", "stand"]:
-        leap_up(group, target, support)
+    if is_leap(group):
+        has_hollow = trait_value("container", target.noun.name) is not None
+        leap_up(group, target, support.height, target.models[0].height if has_hollow else None)
     if kind == "stand":
         carry_along(group, target, support)
     elif group.plan.is_path and not target.is_going:
@@ -372,6 +374,9 @@ def _hang_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
     group.plan = replace(group.plan, yaw=target.plan.yaw)
     group.fit()
     low_m = max(_HUNG * wall.height - 0.5 * own.height, 0.02 * wall.height)
+    if group.plan.motion.kind == "fall":  # to the foot of the wall
+        group.plan = replace(group.plan, start_m=low_m)
+        low_m = 0.0
     return target.to_world(face_m + 0.5 * own.length, 0.0, low_m + group.origin_m)
 
 
@@ -436,7 +441,9 @@ def _put_in(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
         turns = is_wide + is_long
         group.plan = replace(group.plan, yaw=target.plan.yaw + 0.5 * math.pi * turns)
     is_circling = group.plan.motion.kind == "orbit" and group.noun.habitat == "water"
-    if (group.plan.is_path or is_circling) and group.carrier is None:
+    if is_leap(group) and group.carrier is None:
+        leap_up(group, target, depth_in(group, target), target.models[0].height)
+    elif (group.plan.is_path or is_circling) and group.carrier is None:
         go_inside(group, target, support)
     group.fit()
     return target.to_world(*support.middle, depth_in(group, target) + group.origin_m)

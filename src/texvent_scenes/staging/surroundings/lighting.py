@@ -92,11 +92,16 @@ _UNDERWATER = Lighting(
     (0.12, -0.30, 0.95), (0.55, 0.78, 0.80), (0.14, 0.30, 0.38), (0.10, 0.42, 0.55),
     (0.03, 0.19, 0.30), 0.0, 1.1,
 )  # fmt: skip
+_FRESH_WATER = replace(
+    _UNDERWATER, sun=(0.60, 0.74, 0.52), ambient=(0.20, 0.29, 0.21), sky_top=(0.17, 0.34, 0.23),
+    sky_horizon=(0.07, 0.17, 0.11), water=(0.10, 0.24, 0.14),
+)  # fmt: skip
 _SPACE = Lighting(
     (-0.75, -0.55, 0.35), (1.3, 1.25, 1.15), (0.05, 0.055, 0.07), (0.0, 0.0, 0.003),
     (0.0, 0.0, 0.003), 0.0,
 )  # fmt: skip
-_DAYLIGHTS = {"room": _ROOM, "underwater": _UNDERWATER, "space": _SPACE}
+_WATERS = {"underwater": _UNDERWATER, "fresh water": _FRESH_WATER}
+_DAYLIGHTS = {"room": _ROOM, **_WATERS, "space": _SPACE}
 """Daylight of places that are not in the open air."""
 DARK = ("night", "moonlight", "lamp")
 """Kinds of light by which a sky is dark."""
@@ -124,8 +129,8 @@ def choose_lighting(place: PlaceModel, light: Light, *, is_unlit: bool = False) 
         chosen = LIGHTINGS[kind]
         red, green, blue = (_THROUGH_WINDOWS * one for one in chosen.ambient)
         return replace(chosen, sun=(0.0, 0.0, 0.0), ambient=(red, green, blue), shadows=False)
-    if place.light == "underwater":
-        return _dimmed(_UNDERWATER, _THROUGH_WATER) if kind in DARK else _UNDERWATER
+    if (water := _WATERS.get(place.light)) is not None:
+        return _dimmed(water, _THROUGH_WATER) if kind in DARK else water
     if place.light == "space" or (place.light and kind not in DARK):
         return _DAYLIGHTS[place.light]
     if place.ground is Ground.NONE and kind == "night":

@@ -41,6 +41,7 @@ _REACHED = {"sit down": "sit", "stand up": "stand"}
 def falls_sideways(noun: Noun) -> bool:
     """Whether it falls onto its side, as what stands on four legs or on wheels does."""
     is_carried = noun.motion in ("walk", "drive") and noun.habitat == "ground"
+    is_carried |= noun.name in nouns_with("falls onto its side")
     return is_carried and noun.name not in PERSON_NOUNS
 
 
@@ -169,7 +170,7 @@ class FlightKeys:
             return
         key = Key(span, activity="stand", restitution=DULL)
         if kind == "topple" or is_standing:
-            if self._noun.name not in nouns_with("falls over"):  # those stand on a small foot
+            if self._noun.name not in nouns_with("branches give way"):
                 standing = self._model.parts(Pose(0.0, 0.0, 0.0, "stand"))
                 self.edge_m = float(bounds(standing)[1][0])
             key = Key(span, ramp_s=min(0.6, 0.8 * span), activity="stand", pitch_rad=QUARTER)

@@ -241,6 +241,8 @@ def _choose_yaw(motions: Sequence[Motion], noun: Noun, model: Model, toss: float
     if motion.kind in ("rise", "sink") and noun.name in nouns_with("takes off"):
         return YAWS.get(direction, default)  # along a runway
     if noun.habitat == "fixed" and is_toppling:
+        if falls_sideways(noun):
+            return math.copysign(0.5 * math.pi, toss - 0.5)
         return default  # what falls over does so to a side of the picture
     if not goes and (motion.direction is None or _is_seen_from_front(noun, motion)):
         return _face_camera(noun, model, motion, toss)

@@ -397,6 +397,12 @@ def seated(carrier: Track, seat: Vector, activity: str) -> Track:
     return attached(carrier, shift(*seat), activity)
 
 
+def lifted(track: Track, by_m: float) -> Track:
+    """The track, and the floor below it, so much higher."""
+    x, y, z = track.start
+    return replace(track, start=(x, y, z + by_m), floor_m=track.floor_m + by_m)
+
+
 def sample_places(track: Track, duration_s: float) -> np.ndarray:
     """[n, 3] places along a track over the clip, m."""
     times = np.linspace(0.0, duration_s, _SAMPLES)
