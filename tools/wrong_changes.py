@@ -390,8 +390,10 @@ def _importing(modules: Iterable[Path], root: Path) -> list[Path]:
 
 @cache
 def _words(root: Path) -> dict[str, frozenset[str]]:
-    """The words of each file of tests of the program, by its path below `root`."""
-    tests = sorted((root / "tests").rglob("test_*.py"))
+    """The words of each file of tests, by its path below `root`."""
+    tests = sorted(
+        one for folder in ("tests", "lab/tests") for one in (root / folder).rglob("test_*.py")
+    )
     return {one.relative_to(root).as_posix(): _words_of(one.read_text("utf-8")) for one in tests}
 
 
@@ -400,11 +402,12 @@ def _words_of(text: str) -> frozenset[str]:
 
 
 def _alike(file: str, root: Path) -> list[str]:
-    """Files of tests in the order of the words that they share with a source file, rare ones first.
+    """Files of tests of its package in the order of the words that they share with a source file.
 
-    What a registry loads is tested by its name, without an import.
+    Rare words come first. What a registry loads is tested by its name, without an import.
     """
-    tests = _words(root)
+    folder = PACKAGES.get(Path(file).parts[0], ("", "tests"))[1]
+    tests = {one: words for one, words in _words(root).items() if Path(one).is_relative_to(folder)}
     found = Counter(word for words in tests.values() for word in words)
     weight = {word: math.log(len(tests) / count) ** 2 for word, count in found.items()}
     own = _words_of(f"{file} {(root / source_path(file)).read_text('utf-8')}")
@@ -424,9 +427,8 @@ def near_tests(file: str, root: Path) -> list[str]:
     chosen = [one for one in own if one.name.startswith(f"test_{inner.stem}")]
     chosen += [one for one in own if one in importing]
     chosen += [one for one in importing if one.name.startswith("test_") and one.parts[0] != "lab"]
-    if inner.parts[0] not in PACKAGES:
-        chosen = chosen[: MOST_TESTS - MOST_ALIKE]
-        chosen += [one for one in map(Path, _alike(file, root)) if one not in chosen][:MOST_ALIKE]
+    chosen = [*dict.fromkeys(chosen)][: MOST_TESTS - MOST_ALIKE]
+    chosen += [one for one in map(Path, _alike(file, root)) if one not in chosen][:MOST_ALIKE]
     chosen += own + [one for one in importing if one.name.startswith("test_")]
     seen = {inner}
     # Who imports it, then who imports these.

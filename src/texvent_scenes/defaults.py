@@ -222,7 +222,8 @@ def _set_on_routes(
         if one.kind == "follow":
             led = decide_motions(to.motions, leader)
             motions = tuple(_after(each, noun, leader) for each in led)
-            thing = replace(thing, heading_deg=thing.heading_deg or to.heading_deg)
+            own = thing.heading_deg
+            thing = replace(thing, heading_deg=to.heading_deg if own is None else own)
         new = replace(thing, motions=motions)
         objects = tuple(new if n == one.subject else each for n, each in enumerate(objects))
     return replace(description, objects=objects)

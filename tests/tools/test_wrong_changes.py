@@ -126,6 +126,16 @@ def test_tests_of_who_imports_it_farther_off_or_by_a_name_in_a_text_follow(tree:
     assert "tests/test_registry.py" in near_tests("deep/gpu/part.py", tree)
 
 
+def test_tests_that_share_rare_words_are_near_in_other_packages_too(tree: Path) -> None:
+    names = [*(f"read/test_{n}.py" for n in range(20)), "staging/test_zebra.py"]
+    (tree / "tests/scenes/staging").mkdir()
+    for name in names:
+        (tree / "tests/scenes" / name).write_text("")
+    (tree / "src/texvent_scenes/read/part.py").write_text("ZEBRA = 1\n")
+    (tree / "tests/scenes" / names[-1]).write_text("zebra = 1\n")
+    assert f"tests/scenes/{names[-1]}" in near_tests("texvent_scenes/read/part.py", tree)
+
+
 @pytest.mark.long
 def test_a_test_that_fails_without_the_change_judges_nothing(tree: Path) -> None:
     changes = changes_of("big/part.py", (tree / "src/texvent/big/part.py").read_text())
