@@ -21,6 +21,14 @@ from texvent_scenes.read.draft.copies import (
 )
 from texvent_scenes.read.draft.scene_draft import SceneDraft, add_motion
 from texvent_scenes.read.draft.setting import go_inside, names_place, set_place, set_scene
+from texvent_scenes.read.members import (
+    find_fellow,
+    find_hued,
+    find_whole_of,
+    is_again,
+    list_kinds,
+    part_member,
+)
 from texvent_scenes.read.modifiers import say_modifiers, say_word
 from texvent_scenes.read.parsing.groups import Group, Phrase, is_trajectory, ordinals
 from texvent_scenes.read.parsing.lexicon import (
@@ -42,7 +50,7 @@ def pick_group(draft: SceneDraft, group: Group, known: int) -> list[int]:
 
     What is named again is one of the first `known` things: "four teenagers play, one player".
     """
-    if again := _find_hued(draft, group, known):
+    if again := find_hued(draft, group, known):
         return again
     whole = find_whole_of(draft, group, known)
     for each in group.of.groups if group.of is not None and group.picks else ():
@@ -73,21 +81,6 @@ def _find_doer(draft: SceneDraft) -> list[int]:
     """Who acts on something, as "another" does then: "hits a ball and another catches it"."""
     acting = (one for one in draft.last.subjects if draft.acts([one]) and draft.walks(one))
     return [*acting][:1]
-
-
-def _find_hued(draft: SceneDraft, group: Group, known: int) -> list[int]:
-    """One of several things that its colour names again: "the red one" of two balls."""
-    hues = [one for one in group.unknown if one.says("field", "colour")]
-    things = draft.things[:known] if hues and (group.article, group.picks) == ("the", "one") else []
-    values = {one.value("field")[1] for one in hues}
-    found = [n for n, one in enumerate(things) if {one.get("colour")} == values]
-    like = [n for n, one in enumerate(things) if found and one["noun"] == things[found[0]]["noun"]]
-    if len(found) != 1 or len(like) < 2:
-        return []
-    draft.left = [one for one in like if one not in found]  # "the other one"
-    draft.show(*group.unknown)
-    draft.last.nearest = found
-    return found
 
 
 def name_group(
@@ -191,6 +184,8 @@ def _find_unnamed(draft: SceneDraft, group: Group, relation: str) -> list[int]:
 
 def _find_all_of(draft: SceneDraft, group: Group) -> list[int]:
     """All things that a group names again: "both balls" of two kinds, "the vehicles", "the two"."""
+    if fellows := find_fellow(draft, group):
+        return fellows
     counts = [one for one in group.words if one.says("field", "count")]
     named = [one for one in group.words if one not in counts]
     is_again = group.article == "the" or any(one.text == "both" for one in counts)
@@ -260,7 +255,10 @@ def _name_thing(draft: SceneDraft, group: Group, head: Token) -> list[int]:
         draft.last.nearest = same[-1:]  # "the car", where there is one, "the red car"
         draft.show(*group.modifiers)
         return same[-1:]
-    draft.last.nearest = [_add_thing(draft, group, head)]
+    picked = [] if same else part_member(draft, group, head)
+    for token in (*group.modifiers, *group.unknown) if picked else ():
+        say_word(draft, token, picked)
+    draft.last.nearest = picked or [_add_thing(draft, group, head)]
     return draft.last.nearest
 
 
@@ -363,31 +361,3 @@ def _see_as_thing(head: Token, relation: str) -> Token:
     senses = [Sense("noun", NounSense(table[one], is_kind=head.has("place")))
               for one in said if one in table]  # fmt: skip
     return replace(head, senses=tuple(senses)) if senses else head
-
-
-def find_whole_of(draft: SceneDraft, group: Group, known: int) -> list[int]:
-    """Several of whom a group names one, among the first things: the same noun, or persons."""
-    if group.noun is None or "one" not in [one.text for one in group.modifiers]:
-        return []
-    own, sexed = group.noun.noun, word_set("things", "sexed")
-    like = PERSON_NOUNS - sexed if own in PERSON_NOUNS else set()
-    return [n for n, one in enumerate(draft.things[:known])
-            if one["count"] > 1 and one["noun"] in {own, *like}][-1:]  # fmt: skip
-
-
-def list_kinds(draft: SceneDraft, head: Token) -> list[int]:
-    """Things of a kind: "the bird" means the pigeon, "the robot" a delivery robot."""
-    kinds = word_table("general").get(head.text, ())
-    return [n for n, one in enumerate(draft.things)
-            if one["noun"] in kinds or one.get("word", "").endswith(f" {head.text}")]  # fmt: skip
-
-
-def is_again(draft: SceneDraft, group: Group, head: Token, known: int) -> bool:
-    """Whether a group names a thing again; not "her coach", or "the car behind"."""
-    thing, after = draft.things[known], draft.tokens[head.at + 1 :][:2]
-    is_owned = group.article in ("its", "his", "her", "their")
-    is_role = thing["noun"] == "person" and head.text != "person"
-    is_role &= head.text != thing.get("word", head.text) and thing.get("word") != "person"
-    is_other = bool(after) and after[0].text in word_set("things", "elsewhere")
-    is_other &= not (after[1:] and after[1].has("articles", "pronouns", "noun", "field"))
-    return (is_owned or group.article == "the") and not (is_role or is_other)

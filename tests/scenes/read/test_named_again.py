@@ -1,5 +1,7 @@
 """Things that are named again by words for several, and by their colour."""
 
+from collections import Counter
+
 import pytest
 
 from texvent_scenes.models.nouns import NOUNS
@@ -67,3 +69,27 @@ def test_a_verb_after_a_single_noun_is_no_plural(phrase):
 )
 def test_candles_of_a_cake_are_its_own_in_the_numbers_that_are_drawn(prompt, nouns):
     assert {one.noun for one in understand(prompt, NOUNS).objects} == nouns
+
+
+@pytest.mark.parametrize(
+    ("prompt", "bodies"),
+    [
+        (
+            "Two children build a sandcastle. The older girl waves while the toddler jumps.",
+            {"girl": 1, "toddler": 1, "sandcastle": 1},
+        ),
+        ("A herd of horses gallops. The camera follows the lead brown horse.", {"horse": 7}),
+        ("Three vehicles wait on a road. The truck drives off.", {"car": 2, "truck": 1}),
+        ("Four people play volleyball. One player jumps past a defender.", {"person": 4}),
+        ("Two boys play on a lawn. One runs past the other.", {"child": 2}),
+        ("Two red cars stand on a road. The blue car drives off.", {"car": 3}),
+        ("Two boys play on a lawn. The girl watches.", {"child": 2, "girl": 1}),
+        ("Two cars stand on a road. The car ahead drives off.", {"car": 3}),
+        ("Two people sit on a lawn. A woman runs.", {"person": 2, "woman": 1}),
+    ],
+)
+def test_a_member_of_several_who_are_named_is_no_new_body(prompt, bodies):
+    found = Counter[str]()
+    for one in understand(prompt, NOUNS).objects:
+        found[one.noun] += one.count
+    assert found == bodies

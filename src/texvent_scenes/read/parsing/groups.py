@@ -256,7 +256,8 @@ class GroupReader:
         if before.is_unknown and is_many and token.text.endswith("ing"):
             return self._at > first  # "travellers pulling", "a white line spinning at 3 Hz"
         is_state = token.text in word_table("states") and self._at == first
-        is_led = before.has("articles") and self._token(1).has("noun")  # "a face shield"
+        led = self._token(2) if self._token(1).has("field") else self._token(1)
+        is_led = before.has("articles") and led.has("noun")  # "a face shield", "the lead red car"
         is_state |= is_led and bool(token.verbs("base"))
         is_word = token.is_unknown or token.has("picture") or is_state
         return not (is_word or token.verbs("ing", "ed"))
