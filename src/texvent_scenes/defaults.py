@@ -469,8 +469,11 @@ def _list_ridden(description: SceneDescription) -> set[int]:
 
 
 def _park(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
-    """Vehicles that only stand have no rider; birds that float have wings as they fly."""
-    ridden, new = _list_ridden(description), {}
+    """Vehicles that only stand have no rider; birds have their wings spread as they fly.
+
+    A note names animals that have no such form: a penguin that flies.
+    """
+    ridden, new, grounded = _list_ridden(description), {}, dict.fromkeys("")
     for n, one in enumerate(description.objects):
         kinds = {motion.kind for motion in one.motions}
         is_parked = n not in ridden and kinds == {"stand"}
@@ -478,6 +481,12 @@ def _park(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDesc
         variants |= {f"flying {one.noun}"} if kinds & _FLYING else set()
         for each in nouns.keys() & variants:
             new[n] = replace(one, noun=each)
+        noun, is_aloft = nouns[one.noun], bool(kinds & {"fly", "glide"})
+        if is_aloft and n not in new and noun.motion == "walk" and noun.name not in PERSON_NOUNS:
+            grounded[noun.name] = None
+    for each in grounded:
+        told = f"the {each} has no wings to fly with, and is drawn as it stands"
+        description = _note(description, told)
     return _change(description, new)
 
 

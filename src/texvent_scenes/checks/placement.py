@@ -267,6 +267,7 @@ class _Bodies:
         return (
             one.noun.habitat in ("ground", "fixed") and one.track.anchor is None
             and not (is_put or is_free or is_mark) and (is_body or not is_above)
+            and one.noun.name not in nouns_with("hangs from a ceiling")
         )  # fmt: skip
 
     def _list_parts(self, number: int, at: int) -> Float64Array:

@@ -44,9 +44,18 @@ FAMILIES: Mapping[str, tuple[Noun, ...]] = MappingProxyType(
 )  # fmt: skip
 """Nouns by family, such as "vehicles": people, and the files of `data/bodies` and `data/nouns`."""
 
+
+def _with_acts(nouns: Mapping[str, Noun]) -> Iterable[Noun]:
+    """Nouns, with the acts of their variants: an owl glides as it flies."""
+    for one in nouns.values():
+        flying = nouns.get(f"flying {one.name}")
+        yield replace(one, acts=one.acts | flying.acts) if flying else one
+
+
 NOUNS: Mapping[str, Noun] = MappingProxyType(
-    {noun.name: noun for family in FAMILIES.values() for noun in family}
-)
+    {one.name: one for one in _with_acts({noun.name: noun for family in FAMILIES.values()
+                                          for noun in family})}
+)  # fmt: skip
 """Every noun by its singular name."""
 
 VARIANTS: Mapping[str, str] = MappingProxyType(

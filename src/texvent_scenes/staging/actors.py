@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import zlib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, fields
@@ -18,6 +19,7 @@ from texvent_scenes.models.nouns import AFLOAT
 from texvent_scenes.models.people.outfit import Prop
 from texvent_scenes.models.protocol import Model, ModelPart, Noun, Pose
 from texvent_scenes.models.shapes import bounds, compose, moved
+from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.rendered_scene import Float64Array, Primitives
 from texvent_scenes.staging.tracks.keys import GRAVITY_M_S2
 from texvent_scenes.staging.tracks.track import Track
@@ -26,6 +28,9 @@ _CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1
 """Corners of a box two units wide."""
 _LOW = frozenset({"lie"})
 """Activities in which an animal is much lower than it stands."""
+
+_FURNITURE_M = 1.0
+"""Height to which the box of what hangs from a ceiling reaches down: the room is seen below it."""
 
 
 def seeded(seed: int, *role: object) -> np.random.Generator:
@@ -223,7 +228,13 @@ class Actor:
             return bounds(self.own_parts(pose))
         half = 0.5 * np.array([self.model.length, self.model.width, self.model.height])
         lift = np.array([0.0, 0.0, self.lift_m])
-        return lift - half, lift + half
+        return np.maximum(lift - half, [-math.inf, -math.inf, self._hung_m]), lift + half
+
+    @cached_property
+    def _hung_m(self) -> float:
+        """Least height of the box of what hangs from a ceiling, m; minus infinity of all else."""
+        hangs = self.noun.name in nouns_with("hangs from a ceiling")
+        return min(_FURNITURE_M, lowest_point(self.model)) if hangs else -math.inf
 
 
 def corners_over(actors: Iterable[Actor], times: Iterable[float]) -> Float64Array:

@@ -10,7 +10,7 @@ from texvent.errors import FileFormatError
 from texvent_scenes.models.activities import ANIMAL_ACTIVITIES, MOUTH_ACTIVITIES, limbs_of
 from texvent_scenes.models.joints import Instant, read_cycle
 from texvent_scenes.models.materials import BLACK
-from texvent_scenes.models.nouns import FAMILIES, NOUNS
+from texvent_scenes.models.nouns import FAMILIES, NOUNS, VARIANTS
 from texvent_scenes.models.parts import PartsBuilder
 from texvent_scenes.models.protocol import Model, Pose
 from texvent_scenes.models.shapes import bounds
@@ -224,7 +224,29 @@ def test_limbs_of_acts_with_keys_are_needed_too():
     assert "stretch" not in NOUNS["parrot"].acts
 
 
-@for_every(sorted(name for name, one in NOUNS.items() if "glide" in one.acts))
+def extents_m(noun: str, *poses: Pose) -> np.ndarray:
+    """Greatest extents of a noun at some poses, along x, y and z."""
+    model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
+    return np.max([np.ptp(bounds(model.parts(pose)), axis=0) for pose in poses], axis=0)
+
+
+WINGED = sorted({*VARIANTS.values()} & {name for name, one in NOUNS.items() if "glide" in one.acts})
+"""Birds that float or walk, of which sentences say that they fly."""
+
+
+@for_every(WINGED)
+def test_a_bird_that_flies_lies_along_its_way_with_its_wings_spread(noun):
+    beat = [Pose(at, 0.0, 5.0, "fly") for at in np.linspace(0.0, 0.6, 7)]
+    span, rest = extents_m(f"flying {noun}", *beat), extents_m(noun, STILL)
+    assert span[1] > 1.7 * rest[1]
+    model = NOUNS[f"flying {noun}"].build(colour=None, scale=1.0, seed=0)
+    body = np.array([np.ptp(bounds([one]), axis=0) for one in model.parts(beat[0])])[0]
+    assert body[0] > 1.2 * body[2]  # the trunk lies along x
+    tips = [float(bounds(model.parts(one))[1][2]) for one in beat]
+    assert np.ptp(tips) > 0.1 * span[1]
+
+
+@for_every(sorted({name for name, one in NOUNS.items() if "glide" in one.acts} - {*WINGED}))
 def test_who_glides_keeps_its_wings_spread_and_still(noun):
     model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
     shapes = {(act, at): np.array([one.to_body for one in model.parts(Pose(at, 0.0, 5.0, act))])

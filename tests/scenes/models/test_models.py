@@ -12,6 +12,7 @@ from texvent.sensor import SensorSize
 from texvent_scenes.colours import COLOURS, SHADES, SURFACES, find_colour
 from texvent_scenes.models.nouns import AFLOAT, NOUNS
 from texvent_scenes.models.protocol import Model, ModelPart, Noun, Pose
+from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.rendered_scene import Shape
 from texvent_scenes.spec.scene import Motion, Place, Scene, SceneObject
@@ -29,7 +30,7 @@ POSES = [
 
 MOUNDS = {"dune mound"}
 """Scenery whose lower half is in the ground."""
-HUNG = {"ceiling fan", "ceiling lamp", "fluorescent tube", "wall shelf"}
+HUNG = {*nouns_with("hangs from a ceiling"), "wall shelf"}
 """What hangs from above or on a wall."""
 LINES = {
     *("runway markings", "basketball court lines", "pitch lines"),

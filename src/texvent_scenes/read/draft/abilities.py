@@ -255,7 +255,8 @@ class Abilities:
         walks = all(map(self.walks, subjects))
         is_unfit |= is_way and verb.kind == "move"
         is_unfit &= is_ground or is_way or verb.kind == "break" or bool(names & PERSON_NOUNS)
-        is_unfit |= walks and verb.kind in word_set("things", "not_of_walkers")
+        has_wings = all("glide" in self.noun(one).acts for one in subjects)
+        is_unfit |= walks and not has_wings and verb.kind in word_set("things", "not_of_walkers")
         is_unfit |= verb.kind == "roll" and names <= nouns_with("rooted")
         return False if is_unfit else None
 

@@ -18,6 +18,8 @@ _PLACE_ELEVATIONS = {"sky": -0.42, "space": -0.1, "underwater": 0.04, "lake bed"
 _ROOM_ELEVATION, _INTO_IT, _ONTO_STRIP, _ONTO_FLAT, _FLAT_IN_ROOM = 0.24, 0.6, 0.16, 0.5, 0.3
 """Elevation in rooms, from which one sees into an open container, a runway as a strip, what lies
 flat, and that with a wall of the room that is said, rad."""
+_UP_TO_CEILING = -0.2
+"""Height of the camera above what hangs from a ceiling, rad: it is below."""
 _FLAT, _MOST_FLAT_M = 0.2, 1.0
 """Height over length, and length in m, up to which what rests lies flat: a pencil."""
 _ELONGATED, _LEAST_M, ALONG_IT = 4.5, 3.0, 0.75
@@ -91,6 +93,8 @@ def _choose_elevation(main: Actor, place: str, is_in_depth: bool) -> float:
     model = main.model
     if place in _PLACE_ELEVATIONS:
         return _PLACE_ELEVATIONS[place]
+    if main.noun.name in nouns_with("hangs from a ceiling"):
+        return _UP_TO_CEILING
     is_flat = model.height < _FLAT * model.length < _FLAT * _MOST_FLAT_M
     if is_flat and main.track.is_resting and main.noun.habitat != "air":
         return _ONTO_FLAT

@@ -21,7 +21,7 @@ from texvent_scenes.models.shapes import bounds, moved, shift, turn_about
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.data import WAYS
-from texvent_scenes.staging.actors import is_centred, size_of
+from texvent_scenes.staging.actors import is_centred, lowest_point, size_of
 from texvent_scenes.staging.interactions.holding import hides_riders
 from texvent_scenes.staging.placement.along_surface import (
     carry_along,
@@ -150,6 +150,8 @@ def _place_above(group: ObjectGroup, targets: Sequence[ObjectGroup], height: flo
         leap_over(group, target)
         return Goal(_on_ground(target, height), _FIXED)
     clear = target.top_m + 0.7 * own + _CLEAR_M + (0.5 * own if is_centred(group.noun) else 0.0)
+    if group.noun.name in nouns_with("hangs from a ceiling"):
+        clear = target.top_m + _CLEAR_M - lowest_point(group.models[0])
     return Goal(target.centre + np.array([0.0, 0.0, max(clear, height)]), _FIXED)
 
 

@@ -1,4 +1,4 @@
-"""Threads on which things hang until they fall, and cords of lamps that hang from a ceiling."""
+"""Threads on which things hang until they fall, and cords of what hangs from a ceiling."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent_scenes.defaults import waits_to_fall
 from texvent_scenes.description import SceneDescription
@@ -64,7 +65,7 @@ def let_go_s(said: SceneObject, duration_s: float) -> float | None:
 def _list_cords(
     actors: Sequence[Actor], ceiling_m: float, duration_s: float
 ) -> Iterator[tuple[PlacedModel, float]]:
-    """The cords of lamps that hang still below a ceiling, which stay."""
+    """The cords of what hangs still below a ceiling, which stay."""
     for one in actors:
         hangs = one.noun.name in nouns_with("hangs from a ceiling") and math.isfinite(ceiling_m)
         if hangs and is_still(one, duration_s):
@@ -78,12 +79,18 @@ def _list_cords(
 
 
 def is_still(one: Actor, duration_s: float) -> bool:
-    """Whether a body is in one place all the time."""
-    first = one.corners(0.0)
+    """Whether a body is in one place all the time, where it may turn about the vertical."""
+    first = _place_m(one, 0.0)
     return all(
-        bool(np.allclose(one.corners(share * duration_s), first, atol=_STILL_M))
+        bool(np.allclose(_place_m(one, share * duration_s), first, atol=_STILL_M))
         for share in _INSTANTS
     )
+
+
+def _place_m(one: Actor, time_s: float) -> NDArray[np.float64]:
+    """Middle of a body and heights of its corners, m."""
+    corners = one.corners(time_s)
+    return np.concatenate([corners.mean(axis=0), corners[:, 2]])
 
 
 def _hang(actor: Actor) -> PlacedModel:
