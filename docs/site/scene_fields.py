@@ -20,6 +20,7 @@ TABLES = {
     "objects": spec.SceneObject,
     "objects.motions": spec.Motion,
     "objects.relations": spec.Relation,
+    "objects.parts": spec.OwnPart,
     "objects.picture": spec.Picture,
     "effects": spec.Effect,
     "camera": spec.Camera,

@@ -297,8 +297,6 @@ def test_what_topples_one_after_another_stands_in_an_even_row():
     [("a black disc with a white line spins", "white-lined disc"),
      ("a spinning disc with a black dot", "black-dotted disc"),
      ("a rotating disk with black and white sectors", "spinning disc"),
-     ("a fan with three blades", "three-bladed fan"),
-     ("a two-blade fan at 60 rpm", "two-bladed fan"),
      ("a spinning fan with a black dot on one blade", "dotted fan"),
      ("a disc with two white lines", "disc"), ("a fan with a red ribbon", "fan")],
 )  # fmt: skip

@@ -33,7 +33,14 @@ from texvent_scenes.models.limbs import Chain, read_legs
 from texvent_scenes.models.part_lines import Placed, read_parts
 from texvent_scenes.models.people.person import read_rider
 from texvent_scenes.models.postures import Postures, list_channels
-from texvent_scenes.models.protocol import ModelPart, Noun, between, choose, fraction
+from texvent_scenes.models.protocol import (
+    ModelPart,
+    Noun,
+    PartChoice,
+    between,
+    choose,
+    fraction,
+)
 from texvent_scenes.models.shapes import (
     SAMPLE_POSES,
     STANDING_POSES,
@@ -45,8 +52,8 @@ from texvent_scenes.models.shapes import (
     turn_about,
 )
 from texvent_scenes.models.skeleton import Anchor, Body, PartGroup, read_anchor, read_skeleton
-from texvent_scenes.models.surfaces import Painted, paint_model, toned
-from texvent_scenes.models.tables import fill_in
+from texvent_scenes.models.surfaces import WORDS, Painted, paint_model, toned
+from texvent_scenes.models.tables import fill_in, fill_in_each
 from texvent_scenes.rendered_scene import Colour
 
 _KEYS: Mapping[str, tuple[type, ...]] = {
@@ -57,13 +64,16 @@ _KEYS: Mapping[str, tuple[type, ...]] = {
     "clumps": (list,), "legs": (list,), "gait": (dict,), "run": (dict,), "trot": (dict,),
     "runs": (bool,),
     "body": (str,), "sizes": (dict,), "acts": (str,), "anchors": (dict,), "options": (dict,),
-    "with": (list,), "usual_more": (str,),
+    "with": (list,), "usual_more": (str,), "own_parts": (dict,),
+    "each": (dict,),
 }  # fmt: skip
 """Keys of a noun, and what their values are."""
 _ACTS = ("animal_activities", "hand_gestures")
 """Tables of activities that the joints of a noun may follow, the usual one first."""
 _OWN = ("names", "plurals", "more", "usual_more")
 """Keys that no noun takes from the one that it is like."""
+_COUNTED = ("each", "own_parts")
+"""Keys that go with `parts`: what is drawn otherwise has no such parts."""
 _HABITATS: Mapping[str, str] = {
     **dict.fromkeys(("drive", "walk", "run", "roll", "slide"), "ground"),
     **dict.fromkeys(("fly", "float"), "air"),
@@ -93,6 +103,18 @@ class PartsBuilder:
             raise
         except (KeyError, TypeError, ValueError) as error:
             raise FileFormatError(f"{self.where}: {error}") from None
+
+    def with_parts(self, said: Sequence[tuple[str, int | None, Colour | None]]) -> PartsBuilder:
+        """The same noun with other numbers and colours of parts; their count is a size of it."""
+        sizes, surfaces = dict(self.table.get("sizes", {})), dict(self.table.get("surfaces", {}))
+        for name, count, colour in said:
+            surface = self.table["own_parts"][name].get("surface")
+            sizes |= {name: count} if count is not None else {}
+            if surface and colour is not None:
+                words = WORDS.findall(surfaces[surface].replace(":", " "))
+                hue = " ".join(f"{one:.6g}" for one in colour)
+                surfaces[surface] = " ".join((f"({hue})", *words[1:]))
+        return replace(self, table={**self.table, "sizes": sizes, "surfaces": surfaces})
 
     def build(self, colour: Colour | None, seed: int) -> ArticulatedModel:
         """Build it at its usual size."""
@@ -158,6 +180,7 @@ class PartsBuilder:
         if not set(table.get("with", ())) <= options.keys():
             raise ValueError(f"with is {table['with']}; known: {', '.join(options) or 'none'}")
         texts += [(options[name], False) for name in table.get("with", ())]
+        texts += [(one, False) for one in fill_in_each(self.table)]
         rigid, groups = read_skeleton(texts)
         return _laid(rigid) if table.get("laid") else rigid, groups
 
@@ -172,6 +195,17 @@ class PartsBuilder:
 def _build(builder: PartsBuilder, colour: Colour | None, seed: int) -> ArticulatedModel:
     """The body at its usual size: most of a scene's time is measuring those of its scenery."""
     return builder.build(colour, seed)
+
+
+@lru_cache(maxsize=256)
+def with_parts(noun: Noun, said: tuple[tuple[str, int | None, Colour | None], ...]) -> Noun:
+    """A noun with other parts: name, number and colour of each; None = as usual."""
+    known = {one.name for one in noun.choices}
+    own = [one for one in said if one[0] in known]
+    build = noun.build
+    if not own or not isinstance(build, PartsBuilder):
+        return noun
+    return replace(noun, build=build.with_parts(own))
 
 
 def _check_channels(joints: Sequence[Joint], acts: str) -> None:
@@ -244,7 +278,8 @@ def read_nouns(file: Path | Traversable) -> tuple[Noun, ...]:
                 f"{file.name}, {name!r}: there is no noun {like!r} above it to be like"
             )
         model = usual if like is None else entries[like]
-        entries[name] = _merged({key: model[key] for key in model if key not in _OWN}, own)
+        left = (*_OWN, *(_COUNTED if "parts" in own else ()))
+        entries[name] = _merged({key: model[key] for key in model if key not in left}, own)
     return tuple(_noun(f"{file.name}, {name!r}", name, entries[name]) for name in entries)
 
 
@@ -287,7 +322,22 @@ def _noun(where: str, name: str, table: Mapping[str, Any]) -> Noun:
         place=table.get("place", ""),
         acts=_acts_of(table) if "acts" not in table else frozenset(),
         is_working=bool(table.get("works", habitat == "fixed" and _moves_by_itself(table))),
+        choices=tuple(_read_choice(where, key, table) for key in table.get("own_parts", ())),
     )
+
+
+def _read_choice(where: str, name: str, table: Mapping[str, Any]) -> PartChoice:
+    """Parts that may be said: `most` of them, of the usual number in `sizes`; their `surface`."""
+    row = table["own_parts"][name]
+    most, surface = row.get("most", 0), row.get("surface")
+    usual = table.get("sizes", {}).get(name) if most else 0
+    is_so = isinstance(usual, int) and surface in (None, *table.get("surfaces", {}))
+    if not is_so or not {*row} <= {"most", "surface", "names"}:
+        raise FileFormatError(
+            f"{where}: own_parts.{name} may have most, where sizes.{name} is a whole number; a "
+            f"surface, which surfaces has; and names; but it is {row}"
+        )
+    return PartChoice(name, usual, most, surface is not None, tuple(row.get("names", ())))
 
 
 def _moves_by_itself(table: Mapping[str, Any]) -> bool:

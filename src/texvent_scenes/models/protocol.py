@@ -93,6 +93,26 @@ class ModelBuilder(Protocol):
 
 
 @dataclass(frozen=True)
+class PartChoice:
+    """Parts of a noun whose number or colour may be said."""
+
+    name: str
+    """In the plural if there may be several, such as "candles"."""
+    usual: int
+    """Number of them where none is said."""
+    most: int
+    """Greatest number of them; 0 = only their colour may be said."""
+    is_coloured: bool = False
+    """Whether they have a colour of their own."""
+    others: tuple[str, ...] = ()
+    """Other names of them."""
+
+    def is_named(self, word: str) -> bool:
+        """Whether a word, or its plural, names them."""
+        return not {word, f"{word}s"}.isdisjoint((self.name, *self.others))
+
+
+@dataclass(frozen=True)
 class Noun:
     """One object the generator can show."""
 
@@ -114,6 +134,12 @@ class Noun:
     """Activities of an animal in place: names of `activities.ANIMAL_ACTIVITIES`."""
     is_working: bool = False
     """Whether it stays in place and moves by itself, as a metronome does."""
+    choices: tuple[PartChoice, ...] = ()
+    """Parts whose number or colour may be said."""
+
+    def find_choice(self, word: str) -> PartChoice | None:
+        """The parts that a word names, if their number or colour may be said."""
+        return next((one for one in self.choices if one.is_named(word)), None)
 
 
 T = TypeVar("T")

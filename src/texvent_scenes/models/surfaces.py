@@ -21,7 +21,8 @@ PAINT = "paint"
 FIXED_HUES: Mapping[str, Colour] = {"black": BLACK, "white": WHITE}
 """Colours that every noun may name."""
 _GREY = "(.4 .4 .4)"
-_WORDS = re.compile(r"\([^)]*\)(?:\*[\d.]+)*|\S+")
+WORDS = re.compile(r"\([^)]*\)(?:\*[\d.]+)*|\S+")
+"""Words of a surface; a colour in brackets is one."""
 _TEXTURES = {one.name.lower(): one for one in Texture}
 
 
@@ -67,7 +68,7 @@ def read_surface(text: str, hues: Mapping[str, Colour]) -> Material:
     Raises:
         ValueError: a word is not understood.
     """
-    first, *rest = _WORDS.findall(text.replace(":", " "))
+    first, *rest = WORDS.findall(text.replace(":", " "))
     base, *factors = first.split("*")
     if base[0] not in "#(" and base not in hues:
         shared = shared_surfaces() if hues else {}

@@ -94,6 +94,21 @@ def fill_in(table: Mapping[str, Any]) -> Mapping[str, Any]:
     Raises:
         ValueError: a formula cannot be read.
     """
+    filled: Mapping[str, Any] = _filled({**table, "sizes": {}, "each": {}}, _sizes_of(table))
+    return filled
+
+
+def fill_in_each(table: Mapping[str, Any]) -> list[str]:
+    """The texts of `each`, as often as the sizes of their names say; `n` is their number from 0."""
+    sizes = _sizes_of(table)
+    return [
+        _filled(text, {**sizes, "n": float(n)})
+        for name, text in table.get("each", {}).items()
+        for n in range(int(sizes[name]))
+    ]
+
+
+def _sizes_of(table: Mapping[str, Any]) -> dict[str, float]:
     said = table.get("sizes", {})
     sizes = dict[str, float]()
     left = list(said)
@@ -103,8 +118,7 @@ def fill_in(table: Mapping[str, Any]) -> Mapping[str, Any]:
             raise ValueError(f"sizes that no number is given for: {', '.join(left)}")
         sizes |= {name: _evaluate(str(said[name]), sizes) for name in ready}
         left = [name for name in left if name not in sizes]
-    filled: Mapping[str, Any] = _filled({**table, "sizes": {}}, sizes)
-    return filled
+    return sizes
 
 
 def _needs(value: Any) -> set[str]:

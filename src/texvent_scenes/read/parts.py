@@ -76,22 +76,21 @@ def _are_built_in(draft: SceneDraft, phrase: Phrase, subjects: Indices) -> bool:
 def say_parts(draft: SceneDraft, groups: Sequence[Group], subjects: Indices) -> bool:
     """Account for parts that things have, if all groups name some: "its second hand moving"."""
     owned, words = word_table("parts"), [one.words for one in groups]
-    parts = [next((word.text for word in each if word.text in owned), "") for each in words]
+    parts = [next((name for word in each for name in (word.text, f"{word.text}s")
+                   if name in owned), "") for each in words]  # fmt: skip
     if not subjects or not parts or not all(parts):
         return False
     nouns = {draft.things[one]["noun"] for one in subjects}
     if all(one.noun for one in groups) and not any(nouns & owned[one].keys() for one in parts):
         return False  # "a man with candles"
-    for part, each in zip(parts, words, strict=True):
+    for part, group, each in zip(parts, groups, words, strict=True):
         counts = {one.value[1] for word in each for one in word.all("field")
                   if one.value[0] == "count"}  # fmt: skip
-        for thing in (draft.things[one] for one in subjects):
-            if thing["noun"] not in owned[part] or not counts <= {owned[part][thing["noun"]]}:
-                like = (noun for noun, count in owned[part].items()
-                        if noun.endswith(f" {thing['noun']}") and counts <= {count})  # fmt: skip
-                thing["noun"] = next(like, thing["noun"])  # "a fan with three blades"
+        if group.article in ("a", "an") and not group.is_plural:
+            counts |= {1} if draft.counts_parts(subjects, part) else set()
         has = [one for one in subjects if draft.things[one]["noun"] in owned[part]]
-        drawn = {owned[part][draft.things[one]["noun"]] for one in has}
+        drawn = {draft.count_part(one, part, counts) or owned[part][draft.things[one]["noun"]]
+                 for one in has}  # fmt: skip
         for word in each if has and counts <= drawn else ():
             _say_of_part(draft, word, part, has)
     return True
@@ -121,16 +120,27 @@ def _say_of_part(draft: SceneDraft, word: Token, part: str, owners: Indices) -> 
                 can_go = draft.nouns[one["noun"]].speed_m_s > 0.0
                 one["motions"] = one["motions"] or (goes if can_go else [])
     elif "colour" in fields:
-        painted = word_table("painted").get(part, ())
-        for one in (draft.things[n] for n in owners):
-            one |= {"colour": fields["colour"]} if one["noun"] in painted else {}
-        draft.claim(word, "lit colour" if is_lamp else "colour", fields["colour"], owners)
+        _paint_part(draft, word, part, owners)
     elif word.text != part and not (fields.keys() & {"count"} or word.has("articles")):
         return  # "with shiny blades"
     draft.show(word)
     draft.claim(word, SEEN, "", owners)
     claim_fine(draft, word, owners)
     claim_lamps(draft, word, owners)
+
+
+def _paint_part(draft: SceneDraft, word: Token, part: str, owners: Indices) -> None:
+    """Give parts the colour of a word; of those that have none of their own it is to be seen."""
+    hue = dict(one.value for one in word.all("field"))["colour"]
+    for index in owners:
+        own = draft.noun(index).find_choice(part)
+        if own is not None and own.is_coloured:
+            draft.set_part(index, own.name, colour=hue)
+            continue
+        if draft.things[index]["noun"] in word_table("painted").get(part, ()):
+            draft.things[index]["colour"] = hue
+        kind = "lit colour" if part in word_set("things", "lamps") else "colour"
+        draft.claim(word, kind, hue, [index])
 
 
 def claim_lamps(draft: SceneDraft, token: Token, owners: Indices) -> None:

@@ -119,6 +119,18 @@ class Picture:
 
 
 @dataclass(frozen=True)
+class OwnPart:
+    """Number and colour of parts that a body has itself: candles of a cake, blades of a fan."""
+
+    name: str
+    """Kind of part, in the plural if there may be several: "candles", "blades", "roof"."""
+    count: Count | None = None
+    """Number of them; left out: the usual one."""
+    colour: Surface | None = None
+    """Colour of their surface; left out: the usual one."""
+
+
+@dataclass(frozen=True)
 class SceneObject:
     """A body of the scene, or several copies of it."""
 
@@ -148,6 +160,8 @@ class SceneObject:
     """Motions in their order; left out: the usual one where nothing else moves, else rest."""
     relations: tuple[Relation, ...] = ()
     """Relations to other objects."""
+    parts: tuple[OwnPart, ...] = ()
+    """Parts of its own whose number or colour is not the usual one; its noun says which it has."""
     picture: Picture | None = None
     """Texture image; left out: what the noun usually shows, of each AprilTag another id."""
     blink_hz: Hertz | None = None
@@ -388,7 +402,7 @@ _PLACES: dict[type, tuple[Any, ...]] = {
 """Part of a scene → path of its field, and whether that is a list."""
 
 
-for _owner in (*_PLACES, Motion, Relation, Picture, CameraMove, Scene):
+for _owner in (*_PLACES, Motion, Relation, OwnPart, Picture, CameraMove, Scene):
     explain_fields(_owner)
 
 

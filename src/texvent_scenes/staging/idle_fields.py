@@ -288,8 +288,25 @@ def _idle_looks(where: str, one: SceneObject, noun: Noun) -> Iterator[Idle]:
             known = few(sorted(LAMPS), MOST_NAMED)
             why = f"a {one.noun} has no lamp; these have: {known}"
             yield Idle(f"{where}.{name}", why, getattr(one, name) is False)
+    yield from _idle_parts(where, one, noun)
     if one.placement is not None and one.position_m is not None:
         yield Idle(f"{where}.placement", "position_m takes its place; leave one of them out")
+
+
+def _idle_parts(where: str, one: SceneObject, noun: Noun) -> Iterator[Idle]:
+    """Numbers and colours of parts that a noun does not have, or not so many."""
+    for number, own in enumerate(one.parts):
+        path, choice = f"{where}.parts[{number}]", noun.find_choice(own.name)
+        before = [each.name for each in one.parts[:number]]
+        if choice is None or choice.name != own.name or own.name in before:
+            known = few([each.name for each in noun.choices], MOST_NAMED) or "no others"
+            yield Idle(f"{path}.name", f"a {one.noun} may have, each given once: {known}")
+            continue
+        if own.count is not None and own.count > choice.most:
+            most = f"1 to {choice.most}" if choice.most else "always as many"
+            yield Idle(f"{path}.count", f"a {one.noun} has {most} {own.name}")
+        if own.colour is not None and not choice.is_coloured:
+            yield Idle(f"{path}.colour", f"{own.name} of a {one.noun} have the colour of the whole")
 
 
 def _idle_motions(where: str, one: SceneObject, body: _Body) -> Iterator[Idle]:

@@ -92,7 +92,7 @@ def say(reading: Reading) -> str:
 def _say_object(data: dict) -> str:
     """Such as "red car, drive left, past tree"."""
     motions, relations = data.pop("motions", ()), data.pop("relations", ())
-    noun = data.pop("noun")
+    noun, own = data.pop("noun"), data.pop("parts", ())
     parts = [" ".join([*(str(data.pop("colour", "")).split()), noun])]
     if "count" in data:
         parts[0] = f"{data.pop('count')} {parts[0]}"
@@ -101,4 +101,7 @@ def _say_object(data: dict) -> str:
         parts.append(" ".join(str(one) for one in motion.values()))
     for one in relations:
         parts.append(" ".join([one["kind"], *one["to"]]))
+    for one in own:
+        said = (one[name] for name in ("count", "colour", "name") if name in one)
+        parts.append(f"has {' '.join(map(str, said))}")
     return ", ".join(parts)

@@ -61,13 +61,13 @@ def test_a_verb_after_a_single_noun_is_no_plural(phrase):
 @pytest.mark.parametrize(
     ("prompt", "nouns"),
     [
-        ("A cake with five candles stands on a table.", {"five-candled cake", "table"}),
-        ("A birthday cake with three candles", {"three-candled cake"}),
+        ("A cake with five candles stands on a table.", {"cake", "table"}),
         ("A cake and three candles stand on a table.", {"cake", "candle", "table"}),
-        ("A cake with seven candles stands on a table.", {"cake", "table"}),
+        ("Three candles stand on a cake.", {"cake"}),
+        ("Three candles stand on a plate.", {"candle", "plate"}),
     ],
 )
-def test_candles_of_a_cake_are_its_own_in_the_numbers_that_are_drawn(prompt, nouns):
+def test_candles_of_a_cake_are_its_own(prompt, nouns):
     assert {one.noun for one in understand(prompt, NOUNS).objects} == nouns
 
 

@@ -9,6 +9,7 @@ from texvent_scenes.colours import rgb_of
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.places import is_room
 from texvent_scenes.models.tables import nouns_with, trait_value
+from texvent_scenes.read.draft.own_parts import take_parts
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.draft.setting import leave_sky
 from texvent_scenes.read.draft.sources import find_sources
@@ -317,7 +318,8 @@ def _stand_tall(draft: SceneDraft) -> None:
 
 
 _DECISIONS: tuple[Callable[[SceneDraft], object], ...] = (
-    _choose_gender, _look_at_held, _lead_view, _ride_on, _swim, _do_deeds, _find_opponents,
+    take_parts, _choose_gender, _look_at_held, _lead_view, _ride_on, _swim, _do_deeds,
+    _find_opponents,
     _hang_up, _stand_level, _tell_riders, _tell_stars, _tell_above_ground, find_sources, leave_sky,
     _turn_marks, _skate_on_ice, _bring_home, _limit_counts, _look_up, _bring_weather, _claim_levels,
     _pass_fixed, _stand_tall,

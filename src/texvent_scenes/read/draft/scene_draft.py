@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, get_args
 
@@ -159,6 +159,34 @@ class SceneDraft(Abilities):
         """Whether where an object stands depends on where another one does."""
         nearest = self.targets([subject], PLACING)
         return subject == other or any(self._stands_by(target, other) for target in nearest)
+
+    def set_part(self, index: int, name: str, **said: Any) -> None:
+        """Set the number or the colour of parts that an object has itself."""
+        parts = self.things[index].setdefault("parts", [])
+        own = next((one for one in parts if one["name"] == name), None)
+        if own is None:
+            parts.append(own := {"name": name})
+        own |= said
+
+    def counts_parts(self, indices: Indices, word: str) -> bool:
+        """Whether objects may have any number of the parts that a word names."""
+        own = [self.noun(one).find_choice(word) for one in indices]
+        return any(one is not None and one.most for one in own)
+
+    def count_part(self, index: int, word: str, counts: Collection[float]) -> int | None:
+        """Give an object a number of parts, if it can have so many; how many it has then.
+
+        None: the number of these is always the same.
+        """
+        own = self.noun(index).find_choice(word)
+        if own is None or not own.most:
+            return None
+        count = int(next(iter(counts), own.usual))
+        if len(counts) > 1 or not 0 < count <= own.most:
+            return own.usual
+        if counts and count != own.usual:
+            self.set_part(index, own.name, count=count)
+        return count
 
     def add_move(self, move: dict[str, Any]) -> None:
         """Add a move of the camera; what flies is seen from the air."""

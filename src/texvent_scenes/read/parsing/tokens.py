@@ -237,7 +237,7 @@ def _owned() -> tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str
         (rf"\b({owners})['’]s ((?:\w+ )?(?:{parts}))\b", r"\1, its \2"),
         (rf"\b({bare})\b(?! and\b)", lambda found: ", its ".join(found[0].rsplit(" ", 1))),
         (rf"\b(?:the )?((?:\w+ )?(?:{parts})) {of}({owners})\b", r"\2\3, its \1"),
-        (rf"\b({numbers}|\d+)[- ]({many})(?:d|ed)? ({owners})\b", r"\3 with \1 \2s"),
+        (rf"\b({numbers}|\d+)[- ]({many})(?:d|\w?ed)? ({owners})\b", r"\3 with \1 \2s"),
     )
     return tuple((re.compile(pattern, re.IGNORECASE), said) for pattern, said in rows)
 
@@ -261,7 +261,9 @@ def _name_owners(text: str) -> str:
 def _part_words() -> frozenset[str]:
     """Words of parts, of several the last."""
     parts = [one.split()[-1] for one in (*word_table("parts"), *word_set("things", "leaves"))]
-    return frozenset((*parts, *(one.removesuffix("s") for one in parts)))
+    single = [one.removesuffix("s") for one in parts]
+    formed = [one + end for one in single for end in ("d", "ed", f"{one[-1:]}ed")]  # "legged"
+    return frozenset((*parts, *single, *formed))
 
 
 def _read_phrase(
@@ -297,8 +299,9 @@ def _read_phrase(
 def _is_counted(first: Senses, whole: Sense, before: Sequence[Token]) -> bool:
     """Whether a number says how many there are on one thing: "three candles on a cake"."""
     is_many = any(one.kind == "noun" and one.value.is_plural for one in first)
-    field, _ = before[-1].value("field") if before else ("", None)
-    return is_many and field == "count" and not whole.value.is_plural
+    said = itertools.takewhile(lambda one: one.has("field"), reversed(before))
+    is_said = any(one.says("field", "count") for one in said)  # "seven red candles on a cake"
+    return is_many and is_said and not whole.value.is_plural
 
 
 def _read_figure(words: Sequence[str], at: int, lexicon: Lexicon) -> Found | None:

@@ -14,6 +14,7 @@ from texvent_scenes.description import STANDING, SceneDescription
 from texvent_scenes.models.activities import HAND_NOUNS, PERSON_NOUNS, TRAVELLING
 from texvent_scenes.models.anchors import Support, find_support
 from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.models.parts import with_parts
 from texvent_scenes.models.people.outfit import CLOTHES, HOLDS, Prop, list_props
 from texvent_scenes.models.people.person import SEAT, dress
 from texvent_scenes.models.places import is_room
@@ -362,7 +363,8 @@ def dressed(description: SceneDescription, index: int, nouns: Mapping[str, Noun]
     A wall in a room is none of a garden.
     """
     objects = description.objects
-    noun = nouns[objects[index].noun]
+    said = tuple((one.name, one.count, rgb_of(one.colour)) for one in objects[index].parts)
+    noun = with_parts(nouns[objects[index].noun], said)
     opened, put = trait_value("drawn open", noun.name), trait_value("drawn put up", noun.name)
     inside, place = trait_value("drawn in a room", noun.name), description.place.name
     if inside and place and is_room(place):
