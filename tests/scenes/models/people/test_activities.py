@@ -143,13 +143,15 @@ def test_every_prop_hat_and_garment_can_be_drawn():
 
 
 def test_clothes_have_their_colour_or_their_usual_one():
-    worn = put_on(ADULT, [("dress", RED, ""), ("shoe", BLUE, ""), ("jacket", None, "")])
+    worn = put_on(
+        ADULT, [("dress", RED, "", None), ("shoe", BLUE, "", None), ("jacket", None, "", None)]
+    )
     assert (worn.dress, worn.shirts, worn.shoes, worn.has_sleeves) == ("skirt", (RED,), BLUE, True)
-    assert put_on(ADULT, [("suit", None, "")]).trousers == tuple(CLOTHES["suit"]["usual"])
-    assert put_on(ADULT, [("shirt", None, "")]).shirts == ADULT.shirts
+    assert put_on(ADULT, [("suit", None, "", None)]).trousers == tuple(CLOTHES["suit"]["usual"])
+    assert put_on(ADULT, [("shirt", None, "", None)]).shirts == ADULT.shirts
     noun = next(one for one in person.NOUNS if one.name == "man")
     parts = (
-        person.dress(noun, [("suit", RED, "")])
+        person.dress(noun, [("suit", RED, "", None)])
         .build(colour=None, scale=1.0, seed=0)
         .parts(Pose(0.0, 0.0, 0.0, "stand"))
     )
