@@ -65,6 +65,7 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     first object that can move does what it usually does; when none can, the camera sways.
     """
     at_rest = {n for n, one in enumerate(description.objects) if stands_still(one, nouns[one.noun])}
+    description = _swing_riders(description)
     description = _set_on_routes(description, nouns)
     description = _rest(_set_down(_strike_far(_set_far(_ground(description)))), nouns)
     objects = tuple(
@@ -441,6 +442,24 @@ def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
     camera = replace(description.camera, moves=(SWAY,))
     note = "nothing moves in the prompt, so the camera sways a little, as in a hand"
     return _note(replace(description, camera=camera), note)
+
+
+def _swing_riders(description: SceneDescription) -> SceneDescription:
+    """Let swings of sentences swing who only sits on them."""
+    riders: dict[int, set[str]] = {}
+    for one in description.relations:
+        for n in one.targets if one.kind in ("on", "ride") else ():
+            does = {each.kind for each in description.objects[one.subject].motions}
+            riders.setdefault(n, set()).update(does)
+    new: dict[int, Motion | None] = {}
+    for n, does in riders.items():
+        one = description.objects[n]
+        is_free = one.noun in nouns_with("swings") and one.motion is None
+        if is_free and does <= {"sit"} and description.is_sentence:
+            new[n] = Motion("work")
+            note = f"no motion is said of the {label_of(description, n)}, so it swings who is on it"
+            description = _note(description, note)
+    return _move(description, new)
 
 
 def _stays_together(description: SceneDescription, nouns: Mapping[str, Noun]) -> bool:

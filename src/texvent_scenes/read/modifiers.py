@@ -260,6 +260,8 @@ def _is_open(draft: SceneDraft, field: str, things: Sequence[Mapping[str, Any]])
 
 def _say_field(draft: SceneDraft, token: Token, said: Sense, index: int) -> None:
     """Set a field of an object; of a speed also the one that it reaches: "brakes to 2 m/s"."""
+    if token.text in ("up", "down") and draft.handles(index):
+        return  # "an arm puts a box down", and stays on its foot
     motions, before = draft.things[index]["motions"], draft.beside(token, -1).text
     (name, value), end = said.value, motions[-1].get("end_pace") if motions else None
     if name == "speed_m_s" and end is not None:

@@ -26,6 +26,19 @@ def test_two_on_a_seesaw_sit_at_its_ends_and_go_up_in_turn():
     assert risen[0] * risen[1] < 0.0
 
 
+@pytest.mark.parametrize(
+    ("text", "kind"),
+    [("two kids on swings in the park", "work"), ("children on a seesaw", "work"),
+     ("a dog runs past a girl on a swing", "work"), ("a girl on a swing reads a book", "stand"),
+     ("a man jumps off a swing", "stand"), ("an empty swing", "stand")],
+)  # fmt: skip
+def test_a_swing_swings_who_only_sits_on_it_and_the_report_says_so(text, kind):
+    said = understand(text, NOUNS)
+    (seat,) = (one for one in said.objects if one.noun in ("swing", "seesaw"))
+    assert seat.motion.kind == kind
+    assert any("swings who is on it" in one for one in said.notes) == (kind == "work")
+
+
 @pytest.mark.parametrize("kind", ["walk", "run"])
 @pytest.mark.parametrize("nouns", [("girl", "woman"), ("man", "dog"), ("cat", "horse", "cow")])
 def test_those_on_foot_go_the_same_way_unless_it_is_said(nouns, kind):

@@ -20,7 +20,7 @@ from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
 from texvent_scenes.read.parsing.lexicon import VerbSense, word_set
 from texvent_scenes.read.parsing.tokens import Token
-from texvent_scenes.spec.data import ACTED, SENT
+from texvent_scenes.spec.data import ACTED, HANDLED, SENT
 
 MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
 Indices: TypeAlias = Sequence[int]
@@ -84,6 +84,11 @@ class Abilities:
     def goes(self, index: int) -> bool:
         """Whether an object is said to go somewhere, by itself or as what it rides."""
         return bool(self.does([index]) & {*MEANS, "move", "roll", "slide", "crawl"})
+
+    def handles(self, index: int) -> bool:
+        """Whether an object is a machine whose hand takes or leaves something."""
+        is_machine = self.things[index]["noun"] in trait_values("gripper")
+        return is_machine and bool(self.acts([index]) & HANDLED)
 
     def is_lamp(self, index: int) -> bool:
         """Whether an object shines, as it is said to do."""

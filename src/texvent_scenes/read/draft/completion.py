@@ -24,13 +24,19 @@ def complete(draft: SceneDraft) -> None:
 
 
 def _choose_gender(draft: SceneDraft) -> None:
-    """Draw the only person as the one that a pronoun means: "a teacher chops her carrots"."""
+    """Draw the only person as the one that a pronoun means: "a teacher chops her carrots".
+
+    Words that say a sex keep it: of a boy "her" means somebody else.
+    """
     persons = [one for one in draft.things if one["noun"] in PERSON_NOUNS]
-    words = {one.text for one in draft.tokens if [each["noun"] for each in persons] == ["person"]}
-    for noun, pronouns in word_table("people").items():
-        if words & {*pronouns} and persons[0]["noun"] == "person":
+    usual = persons[0]["noun"] if len(persons) == 1 and persons[0]["count"] == 1 else ""
+    said = str(persons[0].get("word", "")).split()[-1:] if usual else []
+    words = {word for one in draft.tokens for word in one.text.split()}  # "brushes her hair"
+    for noun in word_table("sexes").get(usual, ()):
+        is_meant = bool(words & {*word_table("people")[noun]})
+        if is_meant and persons[0]["noun"] == usual and not {*said} & word_set("things", "male"):
             persons[0]["noun"] = noun
-            draft.fates.update({at: noun for at, one in draft.fates.items() if one == "person"})
+            draft.fates.update({at: noun for at, one in draft.fates.items() if one == usual})
 
 
 def _lead_view(draft: SceneDraft) -> None:
