@@ -1,14 +1,26 @@
-"""Usual speeds: those of the table, whatever the camera must do to show them."""
+"""Usual speeds: those of the table, whatever the camera must do to show them; and rest."""
+
+import itertools
+from typing import get_args
 
 import numpy as np
 import pytest
 from tests.scenes.every_row import for_every
 from tests.scenes.staged import DURATION_S, SIZE, in_image, middle, stage, thing
 
+from texvent.errors import ConfigError
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.tables import nouns_with, trait_values
-from texvent_scenes.spec.scene import Camera, CameraMove, Motion, SceneObject
+from texvent_scenes.spec.scene import (
+    Camera,
+    CameraMove,
+    Motion,
+    MoveKind,
+    RelationKind,
+    SceneObject,
+)
 from texvent_scenes.staging.camera.framing import image_of, measure_prominence
+from texvent_scenes.staging.interactions.perform import ACTS
 from texvent_scenes.staging.placement.zones import zone_of
 from texvent_scenes.staging.tracks.phases import PATH_KINDS, usual_speed
 
@@ -170,3 +182,35 @@ def test_who_walks_and_then_runs_gets_faster():
     slow, fast = (speeds_of(scene.actors[0], np.array(span)) for span in ((0.2, 0.6), (1.6, 1.9)))
     assert slow == pytest.approx(usual_speed(NOUNS["dog"], "walk"), rel=0.05)
     assert fast == pytest.approx(usual_speed(NOUNS["dog"], "run"), rel=0.05)
+
+
+WAYS = sorted({*get_args(RelationKind)} - {*ACTS, "off"})  # what is done, or left, is done anyway
+PAIRS = ("man", "table"), ("car", "truck"), ("cat", "ladder"), ("man", "ladder")
+
+
+@for_every(itertools.product(WAYS, PAIRS, ("pace", "speed_m_s")))
+def test_a_speed_of_0_is_rest_wherever_it_would_lead(row):
+    way, (noun, other), field = row
+    subject = SceneObject(noun, motions=(Motion("move", **{field: 0.0}),))
+    try:
+        scene = stage(subject, thing(other), relations=((way, 0, 1),))
+    except ConfigError:
+        return
+    for actor in (one for one in scene.actors if one.object_index == 0):
+        moved_m = np.ptp([middle(actor, t) for t in TIMES[::5]], axis=0).max()
+        assert moved_m < 0.01
+
+
+RATES = {
+    "pace": get_args(MoveKind), "speed_m_s": ("travel", "dolly", "truck", "pedestal"),
+    "rate_deg_s": ("pan", "tilt", "roll", "orbit", "zoom"),
+}  # fmt: skip
+
+
+@for_every([(kind, field) for field, kinds in RATES.items() for kind in kinds])
+def test_a_camera_move_of_speed_0_shows_what_a_static_camera_does(row):
+    kind, field = row
+    scene = stage(thing("box"), camera=Camera((CameraMove(kind, **{field: 0.0}),)))
+    seen = [in_image(scene, scene.actors[0], t) for t in TIMES[::5]]
+    moved = np.ptp(seen, axis=0).max()
+    assert moved < 1e-6

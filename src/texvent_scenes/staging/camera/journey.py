@@ -119,7 +119,8 @@ def _lay_route(
     for begin, end in pairwise(sorted({0.0, duration_s, *times})):
         now = [one.move for one in travels if one.begin_s <= begin < one.end_s]
         is_back = any(move.direction == "backward" for move in now)
-        speed_m_s = (now[0].speed_m_s or usual_m_s * now[0].pace) if now else 0.0
+        stated = now[0].speed_m_s if now else 0.0
+        speed_m_s = usual_m_s * now[0].pace if stated is None else stated
         speed_m_s = -speed_m_s if is_back else speed_m_s
         keys.append(Key(end - begin, speed_m_s, ramp_s=min(0.5, 0.4 * (end - begin))))
     route = Track((0.0, 0.0, 0.0), NORTH, (Key(0.0, keys[0].speed_m_s), *keys), floor_m=0.0)

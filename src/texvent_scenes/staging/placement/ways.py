@@ -273,15 +273,17 @@ def _climb(group: ObjectGroup, target: ObjectGroup, *, is_up: bool) -> Float64Ar
         side = -_ASLANT if math.cos(plan.yaw) < 0.0 else math.pi + _ASLANT
         target.plan = replace(target.plan, yaw=side)
         target.fit()
-    pace = plan.motion.pace if plan.motion.speed_m_s is None else 1.0
-    speed = plan.motion.speed_m_s or pace * speeds_of(group.noun).get("climb", _CLIMB_M_S)
+    speed = plan.motion.speed_m_s
+    if speed is None:
+        speed = plan.motion.pace * speeds_of(group.noun).get("climb", _CLIMB_M_S)
     low = 0.0 if is_person else 0.5 * own.length
     below_m = 0.75 * own.height if is_person else own.length
     top = max(target.models[0].height - below_m, low + _LEAST_M)
     risen = min(speed * plan.duration_s, top - low)
     pitch = 0.0 if is_person else -QUARTER
     sign = 1.0 if is_up else -1.0
-    key = Key(risen / speed, sign * lean * speed, 0.0, sign * speed, 0.0, "climb", pitch_rad=pitch)
+    span_s = risen / speed if speed > 0.0 else plan.duration_s
+    key = Key(span_s, sign * lean * speed, 0.0, sign * speed, 0.0, "climb", pitch_rad=pitch)
     rest = Key(max(plan.duration_s - key.duration_s, 0.01), ramp_s=0.0, activity="stand",
                pitch_rad=pitch)  # fmt: skip
     away = scale * out + (_ARM_M * size_of(own) if is_person else 0.0)
