@@ -28,6 +28,7 @@ from texvent_scenes.checks.phases import (
     find_unhurried,
     list_departures,
     list_hidden,
+    list_rounds,
 )
 from texvent_scenes.checks.pictures import find_unshown
 from texvent_scenes.checks.placement import find_misplaced
@@ -220,6 +221,7 @@ def _list_notes(
     cameras, times, size, _ = clip
     yield from list_hidden(scene, seen, cameras, times, size, _grid_of(size)[0] ** 2)
     yield from list_own_walls(scene, description)
+    yield from list_rounds(description, scene.actors, times)
     yield from list_headless(description, scene.actors, cameras, times, size)
     yield from list_covering(scene, description, seen, _count_points(size), times, unseen)
     if not description.camera.is_moving:

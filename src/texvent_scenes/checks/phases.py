@@ -41,7 +41,7 @@ _ON_GROUND = frozenset({"walk", "run", "drive", "roll", "slide", "crawl"})
 _LEAST_CLIP_S = 1.0
 """Length of a clip, s, in which motions get so far that they are judged."""
 _HURRIED, _STEPS = 0.75, 49
-"""Share of a pace from which on it is reached; instants between which speeds are measured."""
+"""Share of a pace from which on it is reached; instants between which ways are measured."""
 _RUNNING = 0.5
 """Share of its usual speed from which on a body runs."""
 _DONE = 0.7
@@ -52,6 +52,9 @@ it."""
 _COVERED, _COUNTED = 0.25, 6
 """Share of what its copies show at best of which a copy that shows less is almost hidden; copies
 that one counts."""
+
+_TURNING, _ROUND = 0.02, 0.9
+"""Shares of a round from which on a body goes round something, and up to which it is not one."""
 
 
 def find_undone(
@@ -272,3 +275,19 @@ def list_hidden(
         elif max(counts) >= _TOLD and 2 * sum(covered) > len(covered):
             yield (f"the {one.name} (1 of {len(copies)}) is almost hidden for "
                    f"{sum(covered) / len(covered):.0%} of the clip")  # fmt: skip
+
+
+def list_rounds(
+    description: SceneDescription, actors: Sequence[Actor], times: Sequence[float]
+) -> Iterator[str]:
+    """Notes of those who do not come once round in the clip, of which a sentence says it."""
+    around = {one.subject for one in description.relations if one.kind == "around"}
+    for one in actors if description.is_sentence else ():
+        kinds = {each.kind for each in description.objects[one.object_index].motions}
+        if "orbit" in kinds or (one.object_index in around and kinds & PATH_KINDS):
+            instants = np.linspace(0.0, times[-1], _STEPS)
+            ways = np.diff([one.middle(time)[:2] for time in instants], axis=0)
+            turned = np.unwrap(np.arctan2(ways[:, 1], ways[:, 0]))
+            share = abs(turned[-1] - turned[0]) / (2.0 * math.pi) * len(ways) / (len(ways) - 1)
+            if _TURNING < share < _ROUND:
+                yield f"the {one.name} goes {share:.0%} of the way round in the clip"

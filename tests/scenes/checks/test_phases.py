@@ -87,3 +87,14 @@ ROOMS = [name for name, one in PLACES.items() if one.is_room and name not in ("i
 def test_a_camera_that_goes_through_a_room_sees_its_furniture(row):
     name, how = row
     assert not report(f"{how} through a {name}").not_shown
+
+
+@pytest.mark.parametrize(
+    ("text", "is_told"),
+    [("a toy train goes round and round a christmas tree", True),
+     ("a car drives around a fountain", True), ("an elephant walks around a house", True),
+     ("a dog runs around a tree", False), ("a bird flies in circles", False),
+     ("a car drives past a fountain", False)],
+)  # fmt: skip
+def test_who_does_not_come_once_round_is_told(text, is_told):
+    assert any("of the way round" in one for one in report(text).notes) == is_told

@@ -12,7 +12,7 @@ from tests.scenes.every_row import for_every
 
 from texvent.sensor import SensorSize
 from texvent_scenes.colours import COLOURS, SHADES, SURFACES, find_colour
-from texvent_scenes.models.nouns import AFLOAT, NOUNS
+from texvent_scenes.models.nouns import AFLOAT, FAMILIES, NOUNS
 from texvent_scenes.models.protocol import Model, ModelPart, Noun, Pose
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
@@ -238,6 +238,17 @@ def test_a_colour_word_shows(noun):
     hue = np.array(VIOLET) / np.linalg.norm(VIOLET)
     likeness = [float(np.dot(p.colour, hue) / max(np.linalg.norm(p.colour), 1e-9)) for p in painted]
     assert max(likeness) > 0.97
+
+
+@for_every(FAMILIES["birds"])
+def test_a_colour_that_is_said_of_a_bird_is_that_of_most_of_it(noun):
+    painted = violet_model(noun).parts(Pose(0.3, 0.0, 0.0, "stand"))
+    hue = np.array(VIOLET) / np.linalg.norm(VIOLET)
+    sides = np.array([np.linalg.norm(one.to_body[:, :3], axis=1) for one in painted])
+    areas = np.sum(sides * np.roll(sides, 1, axis=1), axis=1)
+    is_so = [float(np.dot(p.colour, hue) / max(np.linalg.norm(p.colour), 1e-9)) > 0.97
+             for p in painted]  # fmt: skip
+    assert areas[is_so].sum() > 0.55 * areas.sum()
 
 
 @pytest.mark.parametrize("shade", SHADES)

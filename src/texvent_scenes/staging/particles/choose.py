@@ -153,7 +153,8 @@ def _fitted(style: EmitterStyle, kind: str, actor: Actor | None) -> EmitterStyle
     noun, words = actor.noun.name, EFFECTS[kind]
     aim = trait_value("spout direction", noun) if "spout" in words.anchor_traits else None
     if aim is not None and style.body == "drop":
-        style = replace(style, aim=tuple(aim))
+        spread = trait_value("spout spread", noun) or style.spread_rad
+        style = replace(style, aim=tuple(aim), spread_rad=tuple(spread))
     return replace(style, light=0.0) if noun in LAMPS else style
 
 
