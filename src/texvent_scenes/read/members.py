@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from texvent_scenes.description import SEEN
 from texvent_scenes.models.activities import PERSON_NOUNS
+from texvent_scenes.read.draft.abilities import balls_of
 from texvent_scenes.read.draft.copies import part_off
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.parsing.groups import Group
@@ -44,6 +45,19 @@ def part_member(draft: SceneDraft, group: Group, head: Token) -> list[int]:
             and (one["noun"] == noun or noun in _list_hyponyms(draft, n) or one["noun"] in kinds)
             and hues <= {one.get("colour", *hues)}]  # fmt: skip
     return [_part_one(draft, many[-1], noun, head)] if many else []
+
+
+def is_in_play(draft: SceneDraft, group: Group, head: Token) -> bool:
+    """Whether a group names the ball that comes with an act that is said: no second one."""
+    who = [n for n in range(len(draft.things)) for kind in draft.does([n])
+           if head.nouns & balls_of(kind)]  # fmt: skip
+    if group.article == "a" or group.is_plural or draft.find(head.nouns) or not who:
+        return False
+    draft.show(head)
+    draft.claim(head, SEEN, "", who[-1:])
+    if draft.last.was_camera:
+        draft.parts["camera"].setdefault("target", who[-1])
+    return True
 
 
 def _part_one(draft: SceneDraft, own: int, noun: str, head: Token) -> int:
