@@ -380,14 +380,10 @@ def _without_chance(
     goes_on = articles | word_set("things", "routes")
     led_by = next((one.text for one in reversed(before) if not one.has("articles")), "")
     is_way = led_by in _OVER_WAYS  # "crosses a zebra crossing from the right"
-    is_verb = (
-        words[end].endswith("ing")
-        and not is_way
-        and (
-            after in goes_on
-            or [one.casefold() for one in words[end + 1 : end + 3]] == ["in", "front"]
-            or _is_act(words, end, before)
-        )
+    is_verb = words[end].endswith("ing") and not is_way and (
+        after in goes_on
+        or [one.casefold() for one in words[end + 1 : end + 3]] == ["in", "front"]
+        or _is_act(words, end, before)
     )
     is_seen = bool(before) and (before[-1].is_unknown or before[-1].has("style"))
     is_seen &= words[end - 1] in ("from", "the")
