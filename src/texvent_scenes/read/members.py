@@ -12,6 +12,9 @@ from texvent_scenes.read.parsing.lexicon import word_set, word_table
 from texvent_scenes.read.parsing.tokens import Token
 from texvent_scenes.words import list_plurals
 
+_GOING = frozenset({"walk", "run", "fly", "swim"})
+"""Motions of several who go the same way."""
+
 
 def find_hued(draft: SceneDraft, group: Group, known: int) -> list[int]:
     """One of several things that its colour names again: "the red one" of two balls."""
@@ -63,6 +66,10 @@ def is_in_play(draft: SceneDraft, group: Group, head: Token) -> bool:
 def _part_one(draft: SceneDraft, own: int, noun: str, head: Token) -> int:
     """Part one thing from several, and name it by a noun of its kind, where that is closer."""
     index = own
+    thing = draft.things[own]
+    for motion in thing["motions"] if not thing["relations"] else ():  # one goes with the others
+        goes = motion["kind"] in _GOING and motion.get("direction", "across") == "across"
+        motion |= {"direction": "right"} if goes else {}
     if draft.things[own]["count"] > 1:
         part_off(draft, own, 1)
         draft.left, index = [own], len(draft.things) - 1

@@ -111,3 +111,16 @@ def test_who_play_together_have_one_ball_which_is_named_again(prompt, acts):
     assert {one.noun for one in objects}.isdisjoint({"ball", "basketball"})
     holders = [one.count for one in objects if one.motions[0].kind != "run"]
     assert holders == [2 if "basketballs" in prompt else 1]
+
+
+@pytest.mark.parametrize(
+    "prompt",
+    [
+        "A herd of horses gallops across a plain. The camera follows the brown horse.",
+        "Birds fly over a lake. The white bird sings.",
+        "Two people walk in a park. The man waves.",
+    ],
+)
+def test_a_member_goes_the_way_of_the_others(prompt):
+    objects = understand(prompt, NOUNS).objects
+    assert [one.motions[0].direction for one in objects] == ["right", "right"]
