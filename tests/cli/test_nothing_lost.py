@@ -4,6 +4,7 @@ import errno
 import os
 import shutil
 import signal
+import struct
 import sys
 import threading
 import time
@@ -195,3 +196,54 @@ def test_a_full_disk_stops_the_run_and_leaves_nothing(tmp_path, monkeypatch, cap
     assert said.out == ""
     assert not list(tmp_path.iterdir())
     assert not [one for one in threading.enumerate() if one.name.startswith("texvent-writer")]
+
+
+def write_davis(folder: Path, *, has_frames: bool) -> None:
+    """An AEDAT 2.0 file with a trigger and an event; AEDAT4 with an event and two frames."""
+    chip = b"#!AER-DAT2.0\r\n# AEChip: davis.Davis346B\r\n"
+    records = [(1 << 10 | 1 << 22, 6), (1 << 31 | 1 << 10, 7), (1 << 31 | 1 << 10, 9)]
+    body = b"".join(struct.pack(">II", *one) for one in records)
+    (folder / "davis.aedat").write_bytes(chip + body)
+    if has_frames:
+        dv = pytest.importorskip("dv_processing", reason="dv-processing has no wheel for this OS")
+        config = dv.io.MonoCameraWriter.DAVISConfig("camera", (64, 48))
+        writer = dv.io.MonoCameraWriter(str(folder / "clip.aedat4"), config)
+        for t_us in (1_000, 41_000):
+            writer.writeFrame(dv.Frame(t_us, np.zeros((48, 64), np.uint8)))
+        events = dv.EventStore()
+        events.push_back(2_000, 3, 2, True)
+        writer.writeEvents(events)
+        del writer
+
+
+SEVERAL_OUTPUTS = {
+    "convert": ("convert", "davis.aedat", "o.h5", "--triggers", "t.csv"),
+    "split": ("convert", "davis.aedat", "parts", "--split", "cuts.txt", "--triggers", "t.csv"),
+    "frames": ("convert", "clip.aedat4", "o.h5", "--frames", "images"),
+    "simulate": ("simulate", "clip.avi", "-o", "o.h5", *SMALL),
+    "truth": ("generate", "a red car drives left", "-o", "o.h5", "--truth", "flow", *SMALL,
+              "--duration", "0.1"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", SEVERAL_OUTPUTS)
+def test_an_output_that_exists_is_refused_before_any_other_is_written(name, folder, clip, capsys):
+    words = SEVERAL_OUTPUTS[name]
+    write_davis(folder, has_frames=name == "frames")
+    Path("cuts.txt").write_text("0\n0.000008\n1\n")
+    before = {*folder.iterdir()}
+    assert run(*words, "-q") == 0
+    made = sorted({*folder.iterdir()} - before)
+    assert len(made) > 1, "the command writes several"
+    for kept in made:
+        for other in {*made} - {kept}:
+            shutil.rmtree(other) if other.is_dir() else other.unlink()
+        held = contents(kept) if kept.is_dir() else kept.read_bytes()
+        capsys.readouterr()
+        assert run(*words, "-q") == 3
+        (line,) = capsys.readouterr().err.splitlines()
+        assert f"{kept.name} exists already" in line
+        assert {*folder.iterdir()} == {*before, kept}
+        assert held == (contents(kept) if kept.is_dir() else kept.read_bytes())
+        assert run(*words, "-q", "--overwrite") == 0
+        assert sorted({*folder.iterdir()} - before) == made

@@ -46,17 +46,18 @@ def is_ego(draft: SceneDraft, clause: Clause) -> bool:
 def sit_in(draft: SceneDraft, clause: Clause) -> Clause | None:
     """The clause of a driver's view of who goes through a passage, said of the camera itself.
 
-    "A car exits a tunnel, dashcam view", "a car drives along a road seen through the windscreen";
+    "A car exits a tunnel, dashcam view", "a car drives along a road seen through the windscreen",
+    "dashcam view entering a tunnel";
     None: no camera is in that vehicle.
     """
     said = [(token, sense.value) for token in draft.tokens for sense in token.all("shot")]
     shots = {value for _, value in said}
     nouns = nouns_of(clause.subjects)
-    is_driven = [draft.nouns[one].motion for one in nouns] == ["drive"]
+    is_driven = not clause.subjects or [draft.nouns[one].motion for one in nouns] == ["drive"]
     is_driven &= not any(group.is_plural for group in clause.subjects)
     if _DRIVEN not in shots or draft.things or not (is_driven and clause.verb):
         return None
-    head = clause.subjects[0].head or NO_TOKEN
+    head = (clause.subjects[0].head if clause.subjects else None) or NO_TOKEN
     way, drive = Sense("relation", "through"), lexicon_of(draft.nouns)[("driving",)]
     first = Phrase(Token("through", clause.verb.at), clause.objects)
     after = [one if isinstance(one, Token) or not _names_passage(one.groups) else
@@ -70,7 +71,8 @@ def sit_in(draft: SceneDraft, clause: Clause) -> Clause | None:
     is_own &= any(_is_own_pane(token) for token, _ in said) and head.text in nouns
     if not (is_own or any(isinstance(one, Phrase) and _names_passage(one.groups) for one in after)):
         return None
-    draft.mark(head, "camera")
+    if clause.subjects:
+        draft.mark(head, "camera")
     verb = replace(clause.verb, senses=drive)
     return replace(clause, subjects=(), objects=(), verb=verb, after=tuple(after))
 

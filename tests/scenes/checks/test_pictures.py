@@ -9,7 +9,7 @@ from tests.scenes.staged import DURATION_S, SIZE, moved, stage_text
 
 from texvent_scenes.checks.edges import find_cut_subject, find_merged, list_covering
 from texvent_scenes.checks.pictures import find_unshown
-from texvent_scenes.description import SceneDescription
+from texvent_scenes.description import IndexedRelation, SceneDescription
 from texvent_scenes.models.effects import EFFECTS
 from texvent_scenes.models.places import PLACES, list_telling
 from texvent_scenes.raycast.render import render
@@ -139,6 +139,9 @@ def test_what_stands_before_the_subject_and_takes_much_of_the_image_is_told(poin
     seen = {1: [points] * 5, 2: [points] * 5}
     told = [*list_covering(near, said, seen, 1000, FIVE_S)]
     assert told == (["the wardrobe covers 30 % of the picture"] if is_told else [])
+    for ends in ((0, (1,)), (1, (0,))):  # whichever of both a relation is said of
+        tied = replace(said, relations=(IndexedRelation("behind", *ends),))
+        assert [*list_covering(near, tied, seen, 1000, FIVE_S)] == []
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,6 @@
 """Rig files: as Kalibr writes them, and by hand; what is wrong in them is named."""
 
+import math
 import warnings
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -279,6 +280,24 @@ def test_every_coefficient_is_in_the_lens_or_is_refused(model, coefficients):
         return
     expected = (*coefficients, *4 * [0.0])[:4]
     assert read_lens(given, "a.yaml") == Lens(300.0, 301.0, 170.5, 131.5, MODELS[model], expected)
+
+
+@pytest.mark.parametrize("name", sorted(MODELS))
+@pytest.mark.parametrize("degrees", [20, 90, 150])
+def test_a_field_of_view_reaches_from_edge_to_edge_whatever_the_model_is_called(
+    tmp_path, name, degrees
+):
+    """The image's edges are rays that far apart, by OpenCV."""
+    text = f"[cam0]\nfield_of_view = {degrees}\ndistortion_model = '{name}'\n"
+    text += "" if name == "none" else "distortion_coeffs = [0.0, 0.0, 0.0, 0.0]\n"
+    lens = read_rig(write(tmp_path, text, "rig.toml"), SIZE)[0].cameras[0].lens
+    matrix = np.array([[lens.fx, 0, lens.cx - 0.5], [0, lens.fy, lens.cy - 0.5], [0, 0, 1]])
+    middle = 0.5 * SIZE.height - 0.5
+    edges = np.array([[[-0.5, middle]], [[SIZE.width - 0.5, middle]]])
+    is_fisheye = MODELS[name] == "equidistant"
+    undistort = cv2.fisheye.undistortPoints if is_fisheye else cv2.undistortPoints
+    (left, _), (right, _) = undistort(edges, matrix, np.zeros(4))[:, 0]
+    assert math.degrees(math.atan(right) - math.atan(left)) == pytest.approx(degrees, abs=0.01)
 
 
 LENS = {"intrinsics": [110, 110, 120, 90], "resolution": [240, 180]}

@@ -65,6 +65,29 @@ def test_the_camera_stops_where_the_subject_reaches_the_goal(goal):
     assert np.all(image <= [SIZE.width, SIZE.height])
 
 
+@given(
+    size=st.tuples(*3 * [st.floats(0.1, 9.0)]),
+    azimuth=st.floats(-3.0, 3.0),
+    elevation=st.floats(0.0, 0.5),
+    fill=st.floats(0.3, 0.9),
+    lift=st.floats(0.0, 1.0),
+)
+def test_all_of_a_subject_is_within_the_share_however_far_the_camera_looks_up(
+    size, azimuth, elevation, fill, lift
+):
+    subject = 0.5 * SIGNS * size
+    shot = {"azimuth": azimuth, "elevation": elevation, "aspect": ASPECT, "fill": fill}
+    level, raised = (fit(subject, lift=each, **shot) for each in (0.0, lift))
+    right, down, _ = np.abs(image_of(camera_at(raised), subject)).T
+    assert right.max() <= 0.5 * fill + 1e-6
+    assert down.max() <= 0.5 * fill * ASPECT + 1e-6
+    assert raised.distance_m == pytest.approx(level.distance_m)
+    height_m = (raised.target - level.target)[2]
+    is_free = down.max() < 0.5 * fill * ASPECT - 1e-3  # room is left, so all of the lift is taken
+    whole_m = lift * ASPECT * 0.5 / raised.focal * raised.distance_m * math.cos(elevation)
+    assert height_m == pytest.approx(whole_m) if is_free else 0.0 <= height_m <= whole_m + 1e-9
+
+
 SHOT = {"azimuth": 0.0, "elevation": 0.0, "aspect": ASPECT}
 
 
@@ -230,6 +253,12 @@ def test_the_camera_moves_on_above_the_ground_and_through_nothing(place, directi
     middles, reach = boxes[:, :, 3], np.linalg.norm(boxes[:, :, :3], axis=(1, 2)) / math.sqrt(3.0)
     for position in positions:
         assert np.all(np.linalg.norm(middles - position, axis=1) > 0.3 * reach)
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_a_camera_that_travels_with_a_view_from_the_top_looks_down_in_rooms_too(place):
+    scene = stage(camera=Camera((CameraMove("travel", "forward"),), view="top"), place=place)
+    assert all(scene.camera(time).rotation[2, 2] < -0.9 for time in TIMES)
 
 
 def test_a_vehicle_ahead_keeps_its_distance_and_oncoming_ones_pass():

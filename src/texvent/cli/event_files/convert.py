@@ -138,7 +138,12 @@ def run(arguments: Sequence[str]) -> int:
     events = edit(_open_inputs(options), options)
     side = _side_data(options)
     frames = None if options.frames is None else _open_frames(options.path)
-    check_outputs([out, *side], overwrite=options.overwrite or options.split is not None)
+    files = [*side] if options.split is not None else [out, *side]  # a split folder checks itself
+    check_outputs(files, overwrite=options.overwrite)
+    if options.frames is not None:
+        from texvent.view.video_writer import check_image_output
+
+        check_image_output(options.frames, overwrite=options.overwrite)
     with ConsoleProgress(is_quiet=options.quiet) as progress:
         count = _write(events.reporting_to(progress), out, options)
     for path, blocks in side.items():

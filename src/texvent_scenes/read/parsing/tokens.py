@@ -372,18 +372,22 @@ def _without_chance(
     """Senses of several words that do not stand together by chance.
 
     As in "a dog moves in a circle" (no camera), "a pedestrian crossing the street", "a bus stops"
-    (no things), "steps out from behind a car" (no view), "seen from the left" (no way), "comes down the road" (no fall),
-    "headlights on a road" (no lamps that are lit).
+    (no things), "steps out from behind a car" (no view), "seen from the left" (no way), "comes
+    down the road" (no fall), "headlights on a road" (no lamps that are lit).
     """
     after = words[end + 1].casefold() if end + 1 < len(words) else ""
     articles = word_set("senses", "articles")
     goes_on = articles | word_set("things", "routes")
     led_by = next((one.text for one in reversed(before) if not one.has("articles")), "")
     is_way = led_by in _OVER_WAYS  # "crosses a zebra crossing from the right"
-    is_verb = words[end].endswith("ing") and not is_way and (
-        after in goes_on
-        or [one.casefold() for one in words[end + 1 : end + 3]] == ["in", "front"]
-        or _is_act(words, end, before)
+    is_verb = (
+        words[end].endswith("ing")
+        and not is_way
+        and (
+            after in goes_on
+            or [one.casefold() for one in words[end + 1 : end + 3]] == ["in", "front"]
+            or _is_act(words, end, before)
+        )
     )
     is_seen = bool(before) and (before[-1].is_unknown or before[-1].has("style"))
     is_seen &= words[end - 1] in ("from", "the")

@@ -120,8 +120,8 @@ def fit(
             middle = (x.min() + x.max()) * right + (y.min() + y.max()) * up
             target = target + 0.5 * distance * middle
     half_height = 0.5 * aspect / focal
-    raised = min(lift, max(fill + float(y.min()) / half_height, 0.0))
-    target = target + raised * half_height * distance * up
+    room_m = max(float(np.min(upwards + fill * half_height * depth)), 0.0)
+    target = target + min(lift * half_height * distance, room_m) * up
     return Framing(target, azimuth, elevation, distance, focal)
 
 
