@@ -32,7 +32,7 @@ from texvent_scenes.checks.phases import (
 )
 from texvent_scenes.checks.pictures import find_unshown
 from texvent_scenes.checks.placement import find_misplaced
-from texvent_scenes.checks.places import MOST_FOG, find_near, list_own_walls
+from texvent_scenes.checks.places import MOST_FOG, find_near, list_dry, list_own_walls
 from texvent_scenes.checks.relations import Violation, find_violations
 from texvent_scenes.checks.shots import find_misframed
 from texvent_scenes.checks.staged_clip import is_inside
@@ -222,6 +222,7 @@ def _list_notes(
     yield from list_hidden(scene, seen, cameras, times, size, _grid_of(size)[0] ** 2)
     yield from list_own_walls(scene, description)
     yield from list_rounds(description, scene.actors, times)
+    yield from list_dry(scene, description, times)
     yield from list_headless(description, scene.actors, cameras, times, size)
     yield from list_covering(scene, description, seen, _count_points(size), times, unseen)
     if not description.camera.is_moving:

@@ -43,6 +43,8 @@ _LEAST_AROUND, _MOSTLY_SKY = 0.4, 0.8
 _CLEAR_M, MOST_FOG = 150.0, 1.7
 """Least distance of sight in which the horizon is seen, m; distance, in those of sight, up to which
 fog leaves something of a body or a ground."""
+_CLEAR = 0.5
+"""Distance, in those of sight, up to which haze leaves the colour of water."""
 _WIDE = 2.0
 """Width of a corridor, as a multiple of the usual one, from which on it looks like a room."""
 
@@ -86,8 +88,9 @@ def find_unseen_place(
         if is_below and one.noun.name in nouns_with("of the sky"):
             yield Violation("noun", one.noun.name, f"the {one.name}: it is below the horizon")
     is_shore = scene.place.has_shore and bool(said.name)
-    if is_shore and not any(_has_shore(scene, *one) for one in instants):
-        kind = "water" if _has_water_name(scene) else "land"
+    is_water = _has_water_name(scene)
+    if is_shore and not any(_has_shore(scene, *one, is_water=is_water) for one in instants):
+        kind = "water" if is_water else "land"
         yield Violation("place", str(said.name), f"the {said.name}: its {kind} is out of view")
         yield from [Violation("place", "sea", "")] * (kind == "water")  # whatever it is called
     has_ground = scene.place.ground not in (Ground.NONE, Ground.UNDERWATER, Ground.FLOOR)
@@ -163,13 +166,24 @@ def find_near(
 
 
 def list_own_walls(scene: ComposedScene, description: SceneDescription) -> Iterator[str]:
-    """Notes of windows and doors of a room that stand in it, in a piece of wall of their own."""
-    if not scene.place.is_room:
-        return
+    """Notes of windows and doors that stand in a room or the open, in a wall of their own."""
+    where = "room" if scene.place.is_room else "open"
     bodied = {one.object_index for one in scene.actors}
     for index, said in enumerate(description.objects):
         if index in bodied and said.noun in nouns_with("in a wall of its own"):
-            yield f"the {said.noun} stands in the room, in a piece of wall of its own"
+            yield f"the {said.noun} stands in the {where}, in a piece of wall of its own"
+
+
+def list_dry(
+    scene: ComposedScene, description: SceneDescription, times: Sequence[float]
+) -> Iterator[str]:
+    """Notes of beaches of which only the sand is seen, as of a desert, or water in haze."""
+    name = description.place.name
+    if not (scene.place.has_shore and name) or _has_water_name(scene):
+        return
+    instants = ((one, scene.camera(one)) for one in times)
+    if not any(_has_shore(scene, *one, is_water=True, most_fog=_CLEAR) for one in instants):
+        yield f"the water of the {name} cannot be made out"
 
 
 def _share_of_image(corners: Float64Array, camera: PosedCamera) -> float:
@@ -190,11 +204,14 @@ def _has_water_name(scene: ComposedScene) -> bool:
     return scene.place.surface is not Texture.SAND
 
 
-def _has_shore(scene: ComposedScene, time_s: float, camera: PosedCamera) -> bool:
-    """Whether enough points of an image are of the water, or of the land, that names the place."""
-    ground_m, share = _find_ground(scene, time_s, camera)
+def _has_shore(
+    scene: ComposedScene, time_s: float, camera: PosedCamera, *,
+    is_water: bool, most_fog: float = MOST_FOG,
+) -> bool:  # fmt: skip
+    """Whether enough points of an image are of the water of a place, or of its land."""
+    ground_m, share = _find_ground(scene, time_s, camera, most_fog=most_fog)
     wet = wet_share(scene, ground_m) if len(ground_m) else 0.0
-    own = wet if _has_water_name(scene) else 1.0 - wet
+    own = wet if is_water else 1.0 - wet
     return own * share >= _LEAST_SHORE
 
 
@@ -238,7 +255,7 @@ def share_of_walls(scene: ComposedScene, time_s: float) -> float:
 
 
 def _find_ground(
-    scene: ComposedScene, time_s: float, camera: PosedCamera
+    scene: ComposedScene, time_s: float, camera: PosedCamera, *, most_fog: float = MOST_FOG
 ) -> tuple[Float64Array, float]:
     """Points of the ground, [n, 2] m, that the points of a coarse image show, and their share."""
     x, y = np.meshgrid(np.arange(_SIZE.width) + 0.5, np.arange(_SIZE.height) + 0.5)
@@ -252,5 +269,5 @@ def _find_ground(
     room_m = (_WAVES_M if scene.place.has_shore else _LEVEL_M) + _ROUNDING * np.nan_to_num(depth)
     with np.errstate(invalid="ignore"):
         is_ground = (np.abs(places[:, 2]) <= room_m) & (instance == 0)
-        is_ground &= depth <= MOST_FOG * scene.environment(time_s).fog_distance
+        is_ground &= depth <= most_fog * scene.environment(time_s).fog_distance
     return places[is_ground, :2], float(is_ground.mean())

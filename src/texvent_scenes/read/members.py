@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from texvent_scenes.description import SEEN
 from texvent_scenes.models.activities import PERSON_NOUNS
+from texvent_scenes.read.draft.abilities import balls_of
 from texvent_scenes.read.draft.copies import part_off
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.parsing.groups import Group
 from texvent_scenes.read.parsing.lexicon import word_set, word_table
 from texvent_scenes.read.parsing.tokens import Token
 from texvent_scenes.words import list_plurals
+
+_GOING = frozenset({"walk", "run", "fly", "swim"})
+"""Motions of several who go the same way."""
 
 
 def find_hued(draft: SceneDraft, group: Group, known: int) -> list[int]:
@@ -46,9 +50,26 @@ def part_member(draft: SceneDraft, group: Group, head: Token) -> list[int]:
     return [_part_one(draft, many[-1], noun, head)] if many else []
 
 
+def is_in_play(draft: SceneDraft, group: Group, head: Token) -> bool:
+    """Whether a group names the ball that comes with an act that is said: no second one."""
+    who = [n for n in range(len(draft.things)) for kind in draft.does([n])
+           if head.nouns & balls_of(kind)]  # fmt: skip
+    if group.article == "a" or group.is_plural or draft.find(head.nouns) or not who:
+        return False
+    draft.show(head)
+    draft.claim(head, SEEN, "", who[-1:])
+    if draft.last.was_camera:
+        draft.parts["camera"].setdefault("target", who[-1])
+    return True
+
+
 def _part_one(draft: SceneDraft, own: int, noun: str, head: Token) -> int:
     """Part one thing from several, and name it by a noun of its kind, where that is closer."""
     index = own
+    thing = draft.things[own]
+    for motion in thing["motions"] if not thing["relations"] else ():  # one goes with the others
+        goes = motion["kind"] in _GOING and motion.get("direction", "across") == "across"
+        motion |= {"direction": "right"} if goes else {}
     if draft.things[own]["count"] > 1:
         part_off(draft, own, 1)
         draft.left, index = [own], len(draft.things) - 1

@@ -183,6 +183,8 @@ def do_verb(
     is_known &= not is_open  # "passengers get on"
     is_within = bool(clause.objects) and not objects and bool(ways & {"into", "out of"})
     is_known &= not is_within  # "enters a room", where it is already
+    is_split = draft.beside(verb, 1).text in word_set("things", "particles") - {"on"}
+    is_known &= bool(objects) or not (is_split and clause.objects)  # "throws up snow"
     is_lost = clause.is_back and not objects  # "throws a wug and catches it"
     found = None if is_lost else perform(draft, verb, subjects, objects, not is_known)
     kind = next((one.value.relation for one in verb.all("verb") if one.value.relation), None)

@@ -9,6 +9,7 @@ from typing import Any
 from texvent_scenes.models.activities import ACTIVITIES, AIMED, ON_TOP, PERSON_NOUNS
 from texvent_scenes.models.anchors import has_rim, takes_in
 from texvent_scenes.models.people.outfit import can_be_worn, list_props
+from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
 from texvent_scenes.read.draft.abilities import Indices
 from texvent_scenes.read.draft.scene_draft import SceneDraft
@@ -260,7 +261,7 @@ def _choose_relation(draft: SceneDraft, kind: str, index: int, other: int) -> st
     thing, noun = draft.things[index], draft.things[other]["noun"]
     is_among = draft.things[other]["count"] > 1 and _are_going(draft, index, other)
     kind = "between" if kind == "in" and is_among else kind  # "in a traffic jam", "in a crowd"
-    kind = _see_inside(kind, draft.nouns[thing["noun"]].habitat, noun)
+    kind = _see_inside(kind, draft.nouns[thing["noun"]], noun)
     if kind in WAYS:
         return _choose_way(draft, kind, index, other)
     ends = [one.get("end_pace") for one in thing["motions"]][-1:]
@@ -333,9 +334,14 @@ def _choose_near(kind: str, noun: str, does: set[str], acts: set[str]) -> str:
     return "" if is_table else "beside"
 
 
-def _see_inside(kind: str, habitat: str, noun: str) -> str:
-    """A relation as that to what is in it: "fish swim around a bowl", "a ball through a hoop"."""
-    if kind == "around" and habitat == "water" and noun in nouns_with("see-through"):
+def _see_inside(kind: str, who: Noun, noun: str) -> str:
+    """A relation as that to what is in it, or above its bearer.
+
+    As in "fish swim around a bowl", "a ball through a hoop", "people under umbrellas".
+    """
+    if kind == "under" and noun in word_set("things", "borne_above"):
+        return "hold" if who.name in PERSON_NOUNS else kind
+    if kind == "around" and who.habitat == "water" and noun in nouns_with("see-through"):
         return "in"
     return "into" if kind == "through" and noun in trait_values("rim") else kind
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from texvent_scenes.models.activities import ACTIVITIES
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.read.account import Reading, finish
 from texvent_scenes.read.camera import (
@@ -80,6 +81,8 @@ def _apply(draft: SceneDraft, clause: Clause) -> None:
         draft.last.nearest, draft.last.subjects, draft.last.before = [], [], []
     is_own = seated is not None or (not is_named and is_ego(draft, clause))
     is_camera = is_named or (is_shot(clause) and not is_own)
+    if draft.last.was_camera and _is_of_view(clause):
+        draft.last.subjects, draft.last.nearest, draft.last.before = [], [], []
     draft.last.was_camera = is_camera
     if _says_of_parts(draft, clause):
         pass
@@ -87,6 +90,23 @@ def _apply(draft: SceneDraft, clause: Clause) -> None:
         apply_to_camera(draft, clause, is_own=is_own)
     else:
         _apply_to_things(draft, clause)
+    _show_following(draft, clause)
+
+
+def _show_following(draft: SceneDraft, clause: Clause) -> None:
+    """Count the words before an act that follows another one with it: "followed by a flip"."""
+    acts = [clause.verb] if clause.verb is not None else heads_of(clause.subjects)
+    for act in acts[:1] if clause.about == "then" else ():
+        before = draft.tokens[: act.at][-3:]
+        led = [one for one in before if one.text in ("followed", "by")]
+        draft.show(*(led if draft.shows(act) else ()))
+
+
+def _is_of_view(clause: Clause) -> bool:
+    """Whether a clause says what else a camera sees: "the camera pans, with people behind"."""
+    first = clause.after[0] if clause.after else None
+    is_bare = not (clause.has_subject or clause.verb)
+    return is_bare and isinstance(first, Phrase) and first.preposition.text == "with"
 
 
 def _is_built_in(draft: SceneDraft, head: Token, clause: Clause) -> bool:
@@ -141,8 +161,24 @@ def _name_doers(draft: SceneDraft, clause: Clause) -> Clause:
     return replace(clause, subjects=first.groups, verb=verb, after=clause.after[1:])
 
 
+def _take_particle(draft: SceneDraft, clause: Clause) -> Clause:
+    """A clause with what follows the particle of an act as its object: "throws up snow".
+
+    It is one that without an object is done in the air: to throw, to kick.
+    """
+    first, *rest = clause.after or (None,)
+    acts = [one.value for one in clause.verb.all("verb")] if clause.verb is not None else []
+    kinds = {one.kind for one in acts} & {one.relation for one in acts} & ACTIVITIES.keys()
+    is_led = isinstance(first, Phrase) and draft.beside(first.preposition, -1) is clause.verb
+    if not (kinds and isinstance(first, Phrase) and is_led) or clause.objects:
+        return clause
+    if first.preposition.text not in word_set("things", "particles") - {"on"}:
+        return clause
+    return replace(clause, objects=first.groups, after=tuple(rest))
+
+
 def _apply_to_things(draft: SceneDraft, clause: Clause) -> None:
-    clause = _name_doers(draft, _describe_place(clause))
+    clause = _take_particle(draft, _name_doers(draft, _describe_place(clause)))
     known, where = len(draft.things), draft.last.nearest
     draft.last.where = where
     told = subjects = find_subjects(draft, clause)

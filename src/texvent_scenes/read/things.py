@@ -26,6 +26,7 @@ from texvent_scenes.read.members import (
     find_hued,
     find_whole_of,
     is_again,
+    is_in_play,
     list_kinds,
     part_member,
 )
@@ -96,7 +97,8 @@ def name_group(
     if head is not None and (formed := _list_formed(group, head)):
         return [index for one in formed for index in name_group(draft, one, relation, owners)]
     outer = [one for one in group.words if one.text in word_set("things", "outer")]
-    if go_inside(draft, group, relation, owners) or (outer and head and head.has("place")):
+    is_none = bool(outer and head and head.has("place")) or _is_of_unknown(group, head)
+    if go_inside(draft, group, relation, owners) or is_none:
         return []  # "on the roof of a hospital": in no ward
     if head is not None and names_place(head, relation) and not is_trajectory(group):
         set_place(draft, group, head, relation)
@@ -237,7 +239,8 @@ def _name_thing(draft: SceneDraft, group: Group, head: Token) -> list[int]:
         return []  # "a cyclist falls off his bike", "a car stops and the door opens"
     is_owned = group.article in owners or bool(draft.find(PERSON_NOUNS))
     is_part = noun and ((is_owned and noun.noun in HAND_NOUNS) or group.article == "its")
-    if len(draft.things) == MAX_BODIES or (is_part and not known):
+    is_part = bool(is_part and not known) or is_in_play(draft, group, head)
+    if len(draft.things) == MAX_BODIES or is_part:
         return []  # "his hands", "with its propellers": parts of a body
     members = noun.members if noun is not None else ()
     if members:
@@ -351,6 +354,12 @@ def _list_formed(group: Group, head: Token) -> Sequence[Group]:
     said = [one.head for one in parts if one.head and not (one.article or one.head.has("field"))]
     is_shape &= len(said) == len(parts) and all(one.has("noun", "effect") for one in said)
     return parts if is_shape else ()
+
+
+def _is_of_unknown(group: Group, head: Token | None) -> bool:
+    """Whether it is a cloud of what is not known, which is none of the sky: "clouds of sand"."""
+    is_cloud = head is not None and bool(head.nouns & word_set("things", "aloft"))
+    return is_cloud and group.of is not None and group.of.preposition.text == "of"
 
 
 def _see_as_thing(head: Token, relation: str) -> Token:

@@ -104,11 +104,26 @@ def test_an_act_that_takes_longer_than_the_clip_is_told():
 
 @pytest.mark.parametrize("noun", ["window", "door"])
 @pytest.mark.parametrize(
-    ("place", "is_told"), [("kitchen", True), ("office", True), ("park", False)]
+    ("place", "where"), [("kitchen", "room"), ("office", "room"), ("park", "open")]
 )
-def test_a_window_that_stands_in_a_room_is_noted(noun, place, is_told):
+def test_a_window_that_stands_in_no_house_is_noted(noun, place, where):
     notes = staged(f"a cat sits by a {noun} in a {place}")[1].notes
-    assert any("wall of its own" in one for one in notes) == is_told
+    assert f"the {noun} stands in the {where}, in a piece of wall of its own" in notes
+
+
+@pytest.mark.parametrize(
+    ("text", "is_told"),
+    [
+        ("a crab on a sandy beach, seen from above", True),
+        ("a golden retriever runs along a beach in thick fog", True),
+        ("a shell on a tropical beach, top view", True),
+        ("a man walks on a beach", False),
+        ("a boat sails on a foggy lake", False),
+        ("a camel walks in a desert", False),
+    ],
+)
+def test_a_beach_of_which_no_water_is_made_out_is_noted(text, is_told):
+    assert any("cannot be made out" in one for one in staged(text)[1].notes) == is_told
 
 
 @pytest.mark.parametrize("part", ["mane", "tail", "ears"])

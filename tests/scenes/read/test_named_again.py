@@ -93,3 +93,34 @@ def test_a_member_of_several_who_are_named_is_no_new_body(prompt, bodies):
     for one in understand(prompt, NOUNS).objects:
         found[one.noun] += one.count
     assert found == bodies
+
+
+@pytest.mark.parametrize(
+    ("prompt", "acts"),
+    [
+        ("Two men play basketball. The ball rolls away.", ["dribble", "run"]),
+        ("Five girls play basketball. The tall girl dribbles the ball.", ["dribble", "run"]),
+        ("A boy and a girl play basketball, then the ball drops.", ["dribble", "run"]),
+        ("A boy bounces a ball. The camera follows the ball.", ["bounce"]),
+        ("Two boys dribble basketballs.", ["dribble"]),
+    ],
+)
+def test_who_play_together_have_one_ball_which_is_named_again(prompt, acts):
+    objects = understand(prompt, NOUNS).objects
+    assert sorted(each.kind for one in objects for each in one.motions) == acts
+    assert {one.noun for one in objects}.isdisjoint({"ball", "basketball"})
+    holders = [one.count for one in objects if one.motions[0].kind != "run"]
+    assert holders == [2 if "basketballs" in prompt else 1]
+
+
+@pytest.mark.parametrize(
+    "prompt",
+    [
+        "A herd of horses gallops across a plain. The camera follows the brown horse.",
+        "Birds fly over a lake. The white bird sings.",
+        "Two people walk in a park. The man waves.",
+    ],
+)
+def test_a_member_goes_the_way_of_the_others(prompt):
+    objects = understand(prompt, NOUNS).objects
+    assert [one.motions[0].direction for one in objects] == ["right", "right"]

@@ -18,7 +18,7 @@ from texvent_scenes.models.effects import LAMPS
 from texvent_scenes.models.people.outfit import can_be_worn, list_props
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values
-from texvent_scenes.read.parsing.lexicon import VerbSense, word_set
+from texvent_scenes.read.parsing.lexicon import VerbSense, word_set, word_table
 from texvent_scenes.read.parsing.tokens import Token
 from texvent_scenes.spec.data import ACTED, HANDLED, SENT
 
@@ -38,6 +38,12 @@ def is_of_people(act: VerbSense) -> bool:
     """Whether only people do an act."""
     is_timed = act.object in TIMED and act.relation == "at"
     return act.who == "person" or is_timed or act.relation in word_set("things", "of_people")
+
+
+def balls_of(activity: str) -> set[str]:
+    """Nouns of the ball that comes with an act: of a basketball player's, no racket's."""
+    balls = {"ball", *word_table("general")["ball"]}
+    return {noun for prop in list_props(activity) for noun in prop.nouns} & balls
 
 
 class Abilities:

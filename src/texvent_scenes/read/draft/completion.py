@@ -6,9 +6,11 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from texvent_scenes.colours import rgb_of
-from texvent_scenes.models.activities import PERSON_NOUNS
+from texvent_scenes.models.activities import ACTIVITIES, PERSON_NOUNS
 from texvent_scenes.models.places import is_room
 from texvent_scenes.models.tables import nouns_with, trait_value
+from texvent_scenes.read.draft.abilities import balls_of
+from texvent_scenes.read.draft.copies import part_off
 from texvent_scenes.read.draft.own_parts import take_parts
 from texvent_scenes.read.draft.scene_draft import SceneDraft
 from texvent_scenes.read.draft.setting import leave_sky
@@ -111,6 +113,30 @@ def _find_opponents(draft: SceneDraft) -> None:
         draft.things[targets[0]].setdefault("size", _SEEN_SIZE)  # a speck between two people
         for one in players:
             draft.relate(one, "rally", targets)
+
+
+_ABOUT = {"kind": "run", "direction": "to and fro", "pace": 0.6}
+"""Motion of players who have not the ball."""
+
+
+def _share_ball(draft: SceneDraft) -> None:
+    """Give those who play a game together one ball, which the last has of whom it is said."""
+    for kind in [one for one in ACTIVITIES if balls_of(one)]:
+        players = [n for n in range(len(draft.things)) if kind in draft.does([n])]
+        claims = [one for at in sorted(draft.claims) for one in draft.claims[at]]
+        said = [one for one in claims if one.value == kind and one.subject in players]
+        games = [one for one in said if one.word.startswith("play ")]
+        if not games or sum(draft.things[n]["count"] for n in players) < 2:
+            continue
+        holder = int(said[-1].subject or 0)
+        if draft.things[holder]["count"] > 1:
+            part_off(draft, holder, draft.things[holder]["count"] - 1)
+            players.append(len(draft.things) - 1)
+        for thing in (draft.things[n] for n in players if n != holder):
+            thing["motions"] = [{**_ABOUT} if one["kind"] == kind else one
+                                for one in thing["motions"]]  # fmt: skip
+        draft.claims = {at: [replace(one, subject=holder) if one in games else one for one in each]
+                        for at, each in draft.claims.items()}  # fmt: skip
 
 
 def _look_at_held(draft: SceneDraft) -> None:
@@ -325,7 +351,7 @@ def _stand_tall(draft: SceneDraft) -> None:
 
 _DECISIONS: tuple[Callable[[SceneDraft], object], ...] = (
     take_parts, _choose_gender, _look_at_held, _lead_view, _ride_on, _swim, _do_deeds,
-    _find_opponents,
+    _find_opponents, _share_ball,
     _hang_up, _stand_level, _tell_riders, _tell_stars, _tell_above_ground, find_sources, leave_sky,
     _turn_marks, _skate_on_ice, _bring_home, _limit_counts, _look_up, _bring_weather, _claim_levels,
     _pass_fixed, _stand_tall,

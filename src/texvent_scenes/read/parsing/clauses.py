@@ -83,7 +83,7 @@ class _Parser(GroupReader):
                  self._read_phrase, self._read_adverb, self._read_group)  # fmt: skip
         clause = Clause()
         while self._token() is not NO_TOKEN:
-            following = self._end(clause)
+            following = self._begin_following(clause) or self._end(clause)
             if following is not None:
                 yield clause
                 clause = following
@@ -132,6 +132,19 @@ class _Parser(GroupReader):
         starts = self._starts_group() or self._token(ahead).has("camera")
         starts = starts or self._token().says("adverb", "start_s")
         return Clause() if starts and (clause.verb or clause.after) else None
+
+    def _begin_following(self, clause: Clause) -> Clause | None:
+        """Clause of an act after one that is named: "a cartwheel followed by a flip"."""
+        ahead = int(self._token().text == ",")
+        led = 2 + ahead + self._token(2 + ahead).has("articles")
+        words = [self._token(ahead + n).text for n in (0, 1)]
+        act = self._token(led)
+        is_verb = bool(act.verbs("base")) and led > 2 + ahead  # "by a jump"
+        is_act = (is_verb or act.has("pose")) and not act.has("noun", "effect", "scene")
+        if words != ["followed", "by"] or not (is_act and clause.verb is not None):
+            return None
+        self._at += led if is_verb else 2 + ahead
+        return Clause(about="then", verb=self._take() if is_verb else None)
 
     def _go_on(self, clause: Clause) -> Clause | None:
         """Beginning of the next clause after a comma; None: a list goes on."""

@@ -103,7 +103,7 @@ class Group:
             is_many = any(count > 1 for count in (*counts, self.count)) or self.picks == "others"
             return is_many or any(one.endswith("s") for one in parts)
         if self.head.has("effect") and not self.head.has("noun"):
-            return self.head.text.endswith("s")
+            return self.head.text.partition(" of ")[0].endswith("s")  # "clouds of dust"
         senses = [one.value for one in self.head.all("noun")]
         is_name = any(one.noun == self.head.text for one in senses)  # "fish", "sheep"
         is_open = is_name and self.article not in ("a", "an")
@@ -256,7 +256,7 @@ class GroupReader:
         if before.is_unknown and is_many and token.text.endswith("ing"):
             return self._at > first  # "travellers pulling", "a white line spinning at 3 Hz"
         is_state = token.text in word_table("states") and self._at == first
-        led = self._token(2) if self._token(1).has("field") else self._token(1)
+        led = self._token(2) if self._token(1).says("field", "colour") else self._token(1)
         is_led = before.has("articles") and led.has("noun")  # "a face shield", "the lead red car"
         is_state |= is_led and bool(token.verbs("base"))
         is_word = token.is_unknown or token.has("picture") or is_state
@@ -315,6 +315,8 @@ class GroupReader:
         is_other = is_one and any(one.is_unknown for one in words)  # "a six axis robot arm"
         counts = [count for one in words for count in _counts(one) if not is_other]
         is_owned = any(one.text.endswith(("'s", "’s")) for one in words)  # "a man's hands"
+        if not senses and counts == [1.0] and self._token(ahead).verbs("s"):
+            return False  # "the left one waves"
         if not senses or is_owned or not (counts or is_one):
             return True
         after = self._token(ahead + 1)
