@@ -11,13 +11,13 @@ Row = TypeVar("Row")
 
 
 def for_every(
-    rows: Iterable[Row] | Callable[[], Iterable[Row]],
+    rows: Iterable[Row] | Callable[[], Iterable[Row]], *, is_quick: bool = False
 ) -> Callable[[Callable[[Row], None]], Callable[[], None]]:
     """Make one test of a check of one row; it names the rows that fail, and says why.
 
     A brief run checks one row of every few, another one each time: at a fixed step it would meet
     one row alone of each short table that is multiplied with others. Rows that take long to find
-    are a function, which the test calls and not each collection.
+    are a function, which the test calls and not each collection; quick ones are all checked.
     """
     given = rows if callable(rows) else list(rows)
 
@@ -26,7 +26,7 @@ def for_every(
         def test() -> None:
             failures = {}
             every = list(given() if callable(given) else given)
-            step = one_of(len(every))
+            step = 1 if is_quick else one_of(len(every))
             for start in range(0, len(every), step):
                 few = every[start : start + step]
                 row = few[crc32(f"{check.__name__} {start}".encode()) % len(few)]

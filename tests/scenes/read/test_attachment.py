@@ -1,6 +1,7 @@
 """What words of a sentence hang on: each rule in three sentences that have nothing in common."""
 
 import pytest
+from tests.scenes.every_row import for_every
 from tests.scenes.read.expected import say
 
 from texvent_scenes.models.nouns import NOUNS
@@ -153,8 +154,9 @@ RULES = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(("text", "expected"), [one for each in RULES.values() for one in each])
-def test_words_hang_on_what_they_are_said_of(text, expected):
+@for_every([one for each in RULES.values() for one in each], is_quick=True)
+def test_words_hang_on_what_they_are_said_of(row):
+    text, expected = row
     assert say(read(text, NOUNS)) == expected
 
 

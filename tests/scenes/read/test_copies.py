@@ -34,7 +34,7 @@ def count(text):
     return bodies, related
 
 
-@for_every(itertools.product(SAID, ("two", "three", "5"), AFTERWARDS))
+@for_every(itertools.product(SAID, ("two", "three", "5"), AFTERWARDS), is_quick=True)
 def test_what_some_do_takes_none_from_what_all_do(row):
     said, number, afterwards = row
     usual = said.format(number, number)

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 from tests.examples import examples, one_of
+from tests.scenes.every_row import for_every
 from tests.scenes.read.expected import PROMPTS, grade, say, sentences
 
 from texvent.errors import InputError
@@ -75,8 +76,9 @@ def test_a_prompt_without_a_known_word_is_refused(prompt):
         read(prompt)
 
 
-@pytest.mark.parametrize(("prompt", "expected"), sentences())
-def test_sentences_say(prompt, expected):
+@for_every(sentences, is_quick=True)
+def test_sentences_say(row):
+    prompt, expected = row
     assert say(reader.read(prompt, NOUNS)) == expected
 
 
@@ -105,8 +107,9 @@ QUANTITIES = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("read", "text", "field", "factor"), QUANTITIES)
-def test_a_quantity_in_any_unit_is_understood_up_to_its_bounds(read, text, field, factor):
+@for_every(QUANTITIES, is_quick=True)
+def test_a_quantity_in_any_unit_is_understood_up_to_its_bounds(row):
+    read, text, field, factor = row
     least, most = RANGES.get(field, (0.001, 100_000.0))
     inside = (least + 1e-6, *np.geomspace(least + 0.01, most, 9) * (1.0 - 1e-9))
     for value in (*inside, least - 1e-6, most * 1.001):
