@@ -40,7 +40,7 @@ def choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> st
     said, usual = description.place, _usual_place(members, description, kinds)
     dives = all(noun.habitat == "water" and noun.motion not in AFLOAT_MOTIONS for noun in members)
     dives = dives and bool(members) and "jump" not in kinds
-    if dives and said.name in (None, "sea", "lake", "river"):
+    if dives and said.name in (None, "sea", "lake", "pond", "river"):
         return "underwater"
     if said.name == "sea":
         return "beach" if _stands_ashore(description, nouns) else "sea"
