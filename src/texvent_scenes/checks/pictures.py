@@ -245,7 +245,8 @@ def _is_shared(scene: ComposedScene, times: Sequence[float]) -> bool:
     alike = (one for one in PLACES.values() if one.ground is place.ground)
     first = next(one for one in alike if one.surface is place.surface)
     is_common = place.surface in _FLOORS or place.ground is Ground.CITY
-    return is_common or (place is not first and not _has_own_colour(place, first))
+    is_water = place.has_shore and place.colours[0] == first.colours[0]  # a pond, as a river
+    return is_common or not (place is first or is_water or _has_own_colour(place, first))
 
 
 def _has_own_colour(place: PlaceModel, usual: PlaceModel) -> bool:

@@ -32,7 +32,7 @@ from texvent_scenes.read.relations import (
 from texvent_scenes.rendered_scene import Ground
 from texvent_scenes.spec.data import PLACING, SPACED
 
-_WATERS = frozenset({"sea", "lake", "river"})
+_WATERS = frozenset({"sea", "lake", "pond", "river"})
 _AT_HOME = {
     ("into", "sky"): {"fly", "glide", "rise", "float", "hover"},
     **{("into", one): {"swim"} for one in _WATERS},
