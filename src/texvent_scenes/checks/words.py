@@ -196,7 +196,7 @@ def _leaves_gap(staged: StagedClip, claim: Claim) -> bool:
     """
     first, last = (staged.relates(claim, "between", when) for when in (slice(1), slice(-1, None)))
     others = [one for n in claim.targets for one in staged.boxes[n]]
-    wide = min((float(one.size[0, :2].min()) for one in others), default=0.0)
+    wide = min(float(one.size[0, :2].min()) for one in others)
     last &= not all(np.linalg.norm(one.middle[-1, :2] - one.middle[0, :2]) > wide
                     for one in staged.own_boxes(claim))  # fmt: skip
     near = [sum(bool(RULES["at"](one, other)[0]) for other in others)

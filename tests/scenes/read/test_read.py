@@ -8,6 +8,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from tests.examples import examples, one_of
 from tests.scenes.every_row import for_every
+from tests.scenes.read.claims import list_claims, read_once, stored_claims
 from tests.scenes.read.expected import PROMPTS, grade, say, sentences
 
 from texvent.errors import InputError
@@ -79,7 +80,13 @@ def test_a_prompt_without_a_known_word_is_refused(prompt):
 @for_every(sentences, is_quick=True)
 def test_sentences_say(row):
     prompt, expected = row
-    assert say(reader.read(prompt, NOUNS)) == expected
+    assert say(read_once(prompt)) == expected
+
+
+def test_sentences_claim_what_they_claimed():
+    found, stored = list_claims(), stored_claims()
+    assert [*found] == [*stored]
+    assert {one: found[one] for one in found if found[one] != stored[one]} == {}
 
 
 @pytest.mark.parametrize(

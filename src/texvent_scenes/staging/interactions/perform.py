@@ -70,7 +70,6 @@ def perform_acts(
     for each in description.relations:
         if each.kind == "towards" and each.subject in sent:
             _send_to(cast, sent[each.subject], each, description.objects, duration_s)
-    _bear_down(cast, description.relations)
     _swing_riders(cast, description.relations)
     _carry_along(cast, placed, description.relations)
     for person in list(cast.values()):
@@ -151,27 +150,13 @@ def _send_to(
             )  # fmt: skip
 
 
-def _bear_down(cast: dict[int, Actor], relations: Sequence[IndexedRelation]) -> None:
-    """Let what stands on a thing that is knocked over go down with it."""
-    down = [one.targets[0] for one in relations if one.kind == "knock over"]
-    for index in down:
-        fallen = [one for one in cast.values() if one.object_index == index and one.is_mover]
-        on = [one.subject for one in relations if one.kind == "on" and index in one.targets]
-        for below, (number, one) in itertools.product(fallen[:1], list(cast.items())):
-            if one.object_index in on:
-                frame, own = (np.vstack([each.track.at(0.0).to_world(), [0.0, 0.0, 0.0, 1.0]])
-                              for each in (below, one))  # fmt: skip
-                path = attached(below.track, np.linalg.solve(frame, own)[:3])
-                cast[number] = replace(one, track=path, is_mover=True)
-        down += [one for one in on if one not in down]
-
-
 def _carry_along(
     cast: dict[int, Actor], placed: Mapping[int, Actor], relations: Sequence[IndexedRelation]
 ) -> None:
-    """Move bodies on or in a thing along with it where an act moves that."""
+    """Move bodies on or in a thing along with it where an act moves that, and those on these."""
     starts = {n: one.track.at(0.0).to_world() for n, one in placed.items()}
-    for each in (one for one in relations if one.kind in ("on", "in")):
+    said = [one for one in relations if one.kind in ("on", "in")]
+    for each in said * len(said):  # what bears a thing may be borne itself, and be named later
         below = [n for n, one in cast.items() if one.object_index in each.targets]
         own = [n for n, one in cast.items() if one.object_index == each.subject]
         for number in own if below else ():
