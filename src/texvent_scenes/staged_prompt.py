@@ -11,9 +11,9 @@ from texvent.prompt_report import PromptReport
 from texvent.sensor import SensorSize
 from texvent_scenes.assets.nouns import list_files
 from texvent_scenes.checks.caption import caption
+from texvent_scenes.checks.clip.relations import Violation
+from texvent_scenes.checks.clip.staged_clip import StagedClip
 from texvent_scenes.checks.in_view import Unseen, find_unseen, without_words
-from texvent_scenes.checks.relations import Violation
-from texvent_scenes.checks.staged_clip import StagedClip
 from texvent_scenes.checks.words import find_held
 from texvent_scenes.description import STANDING, SceneDescription
 from texvent_scenes.meanings import list_meanings

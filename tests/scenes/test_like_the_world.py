@@ -7,7 +7,7 @@ import pytest
 from tests.scenes.every_row import for_every
 from tests.scenes.staged import stage_text
 
-from texvent_scenes.checks.placement import find_misplaced
+from texvent_scenes.checks.surroundings.placement import find_misplaced
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.scene_input import list_nouns, understand

@@ -13,13 +13,13 @@ from itertools import groupby
 import numpy as np
 
 from texvent.camera import PosedCamera
-from texvent_scenes.checks.body_boxes import BodyBoxes
+from texvent_scenes.checks.bodies.looks import is_ball
+from texvent_scenes.checks.clip.body_boxes import BodyBoxes
+from texvent_scenes.checks.clip.staged_clip import StagedClip
 from texvent_scenes.checks.in_view import View
-from texvent_scenes.checks.looks import is_ball
-from texvent_scenes.checks.places import share_of_sky
-from texvent_scenes.checks.staged_clip import StagedClip
-from texvent_scenes.checks.surfaces import join_words, list_surfaces, tell_look
-from texvent_scenes.checks.water import wet_share
+from texvent_scenes.checks.surroundings.places import share_of_sky
+from texvent_scenes.checks.surroundings.water import wet_share
+from texvent_scenes.checks.views.surfaces import join_words, list_surfaces, tell_look
 from texvent_scenes.models.activities import (
     ACTIVITIES,
     ANIMAL_ACTIVITIES,

@@ -17,11 +17,9 @@ import numpy as np
 
 from texvent.camera import PosedCamera, project
 from texvent.sensor import SensorSize
-from texvent_scenes.checks.body_boxes import BodyBoxes, body_of
-from texvent_scenes.checks.edges import find_cut_subject, find_merged, list_covering
-from texvent_scenes.checks.limbs import find_ageless, find_tiny, list_headless
-from texvent_scenes.checks.looks import find_unlike, is_ball
-from texvent_scenes.checks.phases import (
+from texvent_scenes.checks.bodies.limbs import find_ageless, find_tiny, list_headless
+from texvent_scenes.checks.bodies.looks import find_unlike, is_ball
+from texvent_scenes.checks.bodies.phases import (
     find_airborne_meals,
     find_undone,
     find_unfinished,
@@ -30,14 +28,16 @@ from texvent_scenes.checks.phases import (
     list_hidden,
     list_rounds,
 )
-from texvent_scenes.checks.pictures import find_unshown
-from texvent_scenes.checks.placement import find_misplaced
-from texvent_scenes.checks.places import MOST_FOG, find_near, list_dry, list_own_walls
-from texvent_scenes.checks.relations import Violation, find_violations
-from texvent_scenes.checks.shots import find_misframed
-from texvent_scenes.checks.staged_clip import is_inside
-from texvent_scenes.checks.water import find_wet_and_dry
-from texvent_scenes.checks.worn import find_unworn
+from texvent_scenes.checks.bodies.worn import find_unworn
+from texvent_scenes.checks.clip.body_boxes import BodyBoxes, body_of
+from texvent_scenes.checks.clip.relations import Violation, find_violations
+from texvent_scenes.checks.clip.staged_clip import is_inside
+from texvent_scenes.checks.surroundings.edges import find_cut_subject, find_merged, list_covering
+from texvent_scenes.checks.surroundings.placement import find_misplaced
+from texvent_scenes.checks.surroundings.places import MOST_FOG, find_near, list_dry, list_own_walls
+from texvent_scenes.checks.surroundings.water import find_wet_and_dry
+from texvent_scenes.checks.views.pictures import find_unshown
+from texvent_scenes.checks.views.shots import find_misframed
 from texvent_scenes.description import SceneDescription, label_of
 from texvent_scenes.meanings import list_meanings
 from texvent_scenes.models.tables import nouns_with

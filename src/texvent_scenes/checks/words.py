@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from texvent.sensor import SensorSize
-from texvent_scenes.checks.acts import (
+from texvent_scenes.checks.bodies.acts import (
     begins,
     bounces,
     breaks,
@@ -43,17 +43,10 @@ from texvent_scenes.checks.acts import (
     tips,
     turns,
 )
-from texvent_scenes.checks.body_boxes import BodyBoxes, is_any_inside
-from texvent_scenes.checks.camera_ways import (
-    is_at_eye_level,
-    is_camera_so,
-    is_macro,
-    is_overtaken,
-)
-from texvent_scenes.checks.grips import handles_by_hand
-from texvent_scenes.checks.lit import shows_lamp, shows_lit_colour
-from texvent_scenes.checks.looks import has_look
-from texvent_scenes.checks.parts import (
+from texvent_scenes.checks.bodies.grips import handles_by_hand
+from texvent_scenes.checks.bodies.lit import shows_lamp, shows_lit_colour
+from texvent_scenes.checks.bodies.looks import has_look
+from texvent_scenes.checks.bodies.parts import (
     Place,
     goes_round,
     has_colour,
@@ -61,12 +54,19 @@ from texvent_scenes.checks.parts import (
     is_moving_inside,
     is_of_material,
 )
-from texvent_scenes.checks.phases import runs
-from texvent_scenes.checks.places import is_before_sky, shows_sky, shows_sun
-from texvent_scenes.checks.relation_rules import RULES
-from texvent_scenes.checks.staged_clip import StagedClip
-from texvent_scenes.checks.streets import are_many, gets_on, is_on_pavement
-from texvent_scenes.checks.water import is_above_way, wet_share
+from texvent_scenes.checks.bodies.phases import runs
+from texvent_scenes.checks.clip.body_boxes import BodyBoxes, is_any_inside
+from texvent_scenes.checks.clip.relation_rules import RULES
+from texvent_scenes.checks.clip.staged_clip import StagedClip
+from texvent_scenes.checks.surroundings.places import is_before_sky, shows_sky, shows_sun
+from texvent_scenes.checks.surroundings.streets import are_many, gets_on, is_on_pavement
+from texvent_scenes.checks.surroundings.water import is_above_way, wet_share
+from texvent_scenes.checks.views.camera_ways import (
+    is_at_eye_level,
+    is_camera_so,
+    is_macro,
+    is_overtaken,
+)
 from texvent_scenes.description import SEEN, Claim, SceneDescription
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor

@@ -7,8 +7,8 @@ import pytest
 from tests.scenes.staged import SIZE
 from tests.scenes.test_short_prompts import report, staged
 
-from texvent_scenes.checks.staged_clip import StagedClip
-from texvent_scenes.checks.water import is_above_way, wet_share
+from texvent_scenes.checks.clip.staged_clip import StagedClip
+from texvent_scenes.checks.surroundings.water import is_above_way, wet_share
 from texvent_scenes.description import Claim
 from texvent_scenes.scene_input import list_nouns, understand
 

@@ -8,9 +8,9 @@ from tests.scenes.staged import DURATION_S, stage, thing
 from tests.scenes.test_short_prompts import is_right, report
 
 from texvent.sensor import SensorSize
-from texvent_scenes.checks.body_boxes import BodyBoxes
-from texvent_scenes.checks.relation_rules import RULES
-from texvent_scenes.checks.relations import find_violations
+from texvent_scenes.checks.clip.body_boxes import BodyBoxes
+from texvent_scenes.checks.clip.relation_rules import RULES
+from texvent_scenes.checks.clip.relations import find_violations
 from texvent_scenes.description import Claim
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.scene_input import list_nouns, understand

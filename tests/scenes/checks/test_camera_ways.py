@@ -4,7 +4,7 @@ origin."""
 import numpy as np
 import pytest
 
-from texvent_scenes.checks.camera_ways import _CAMERA_WAYS
+from texvent_scenes.checks.views.camera_ways import _CAMERA_WAYS
 
 SHARE = np.linspace(0.0, 1.0, 9)[:, None]
 

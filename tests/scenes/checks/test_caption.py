@@ -8,8 +8,8 @@ from tests.scenes.every_row import for_every
 from tests.scenes.staged import SIZE
 
 from texvent_scenes.checks.caption import caption
+from texvent_scenes.checks.clip.staged_clip import StagedClip
 from texvent_scenes.checks.in_view import find_unseen
-from texvent_scenes.checks.staged_clip import StagedClip
 from texvent_scenes.defaults import complete
 from texvent_scenes.description import to_description
 from texvent_scenes.models.nouns import NOUNS

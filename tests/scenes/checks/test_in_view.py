@@ -12,7 +12,11 @@ from tests.examples import examples
 from tests.scenes.staged import DURATION_S, SIZE, in_image, stage, thing
 
 from texvent.sensor import SensorSize
-from texvent_scenes.checks.body_boxes import BodyBoxes, body_of, is_any_inside
+from texvent_scenes.checks.bodies.lit import is_any_seen
+from texvent_scenes.checks.clip.body_boxes import BodyBoxes, body_of, is_any_inside
+from texvent_scenes.checks.clip.relation_rules import RULES
+from texvent_scenes.checks.clip.relations import holds
+from texvent_scenes.checks.clip.staged_clip import StagedClip
 from texvent_scenes.checks.in_view import (
     LEAST_PIXELS,
     MOST_POINTS,
@@ -20,10 +24,6 @@ from texvent_scenes.checks.in_view import (
     count_pixels,
     find_unseen,
 )
-from texvent_scenes.checks.lit import is_any_seen
-from texvent_scenes.checks.relation_rules import RULES
-from texvent_scenes.checks.relations import holds
-from texvent_scenes.checks.staged_clip import StagedClip
 from texvent_scenes.description import IndexedRelation, SceneDescription
 from texvent_scenes.procedural import ProceduralConfig, ProceduralGenerator
 from texvent_scenes.raycast.ground_truth import ground_truth

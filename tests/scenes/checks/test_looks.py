@@ -8,7 +8,7 @@ import pytest
 from tests.scenes.every_row import for_every
 from tests.scenes.staged import DURATION_S, SIZE
 
-from texvent_scenes.checks.worn import find_unworn
+from texvent_scenes.checks.bodies.worn import find_unworn
 from texvent_scenes.description import IndexedRelation, SceneDescription
 from texvent_scenes.models.materials import MATERIALS
 from texvent_scenes.models.people.outfit import CLOTHES, list_props

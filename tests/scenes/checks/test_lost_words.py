@@ -7,8 +7,8 @@ import pytest
 from tests.scenes.staged import SIZE
 from tests.scenes.test_short_prompts import staged
 
-from texvent_scenes.checks.phases import find_unfinished
-from texvent_scenes.checks.staged_clip import StagedClip
+from texvent_scenes.checks.bodies.phases import find_unfinished
+from texvent_scenes.checks.clip.staged_clip import StagedClip
 from texvent_scenes.checks.words import CHECKS
 from texvent_scenes.description import Claim, SceneDescription
 from texvent_scenes.models.activities import ACTIVITIES

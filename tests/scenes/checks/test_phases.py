@@ -10,8 +10,8 @@ from tests.scenes.every_row import for_every
 from tests.scenes.staged import SIZE, in_image, stage, stage_text, thing
 from tests.scenes.test_short_prompts import report
 
-from texvent_scenes.checks.limbs import find_tiny
-from texvent_scenes.checks.phases import find_unhurried
+from texvent_scenes.checks.bodies.limbs import find_tiny
+from texvent_scenes.checks.bodies.phases import find_unhurried
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.places import PLACES
 from texvent_scenes.spec.scene import Motion, SceneObject

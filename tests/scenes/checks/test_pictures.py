@@ -7,8 +7,8 @@ import pytest
 from tests.scenes.every_row import for_every
 from tests.scenes.staged import DURATION_S, SIZE, moved, stage_text
 
-from texvent_scenes.checks.edges import find_cut_subject, find_merged, list_covering
-from texvent_scenes.checks.pictures import find_unshown
+from texvent_scenes.checks.surroundings.edges import find_cut_subject, find_merged, list_covering
+from texvent_scenes.checks.views.pictures import find_unshown
 from texvent_scenes.description import IndexedRelation, SceneDescription
 from texvent_scenes.models.effects import EFFECTS
 from texvent_scenes.models.places import PLACES, list_telling

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from tests.scenes.staged import DURATION_S, moved, road_of, stage, stage_text, thing
 
-from texvent_scenes.checks.placement import find_misplaced
+from texvent_scenes.checks.surroundings.placement import find_misplaced
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.spec.scene import Place
 

@@ -10,8 +10,8 @@ from tests.scenes.test_short_prompts import staged
 
 from texvent.camera import project
 from texvent.sensor import SensorSize
-from texvent_scenes.checks.limbs import find_tiny
-from texvent_scenes.checks.shots import find_misframed
+from texvent_scenes.checks.bodies.limbs import find_tiny
+from texvent_scenes.checks.views.shots import find_misframed
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.spec.scene import Camera, CameraMove
 from texvent_scenes.staging.camera.camera_track import CameraTrack

@@ -9,7 +9,7 @@ from tests.examples import one_of
 from tests.scenes.test_short_prompts import is_right, report
 
 from texvent.sensor import SensorSize
-from texvent_scenes.checks.acts import is_arc
+from texvent_scenes.checks.bodies.acts import is_arc
 from texvent_scenes.checks.words import is_in_line
 from texvent_scenes.colours import SURFACES
 from texvent_scenes.models.materials import has_colour

@@ -28,8 +28,8 @@ from tests.scenes.read.phrases import ENDS, OBJECTS, RELATIONS, SUBJECTS, VERBS
 from texvent.errors import ConfigError, InputError
 from texvent.sensor import SensorSize
 from texvent_scenes import read as reader
-from texvent_scenes.checks.relation_rules import RULES
-from texvent_scenes.checks.staged_clip import StagedClip
+from texvent_scenes.checks.clip.relation_rules import RULES
+from texvent_scenes.checks.clip.staged_clip import StagedClip
 from texvent_scenes.checks.words import CHECKS
 from texvent_scenes.defaults import complete, decide_motions
 from texvent_scenes.description import Claim, report_of, to_description

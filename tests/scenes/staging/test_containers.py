@@ -7,9 +7,9 @@ import pytest
 from tests.scenes.every_row import for_every
 from tests.scenes.staged import DURATION_S, SIZE, moved, stage, stage_text, thing
 
-from texvent_scenes.checks.body_boxes import body_of
+from texvent_scenes.checks.clip.body_boxes import body_of
+from texvent_scenes.checks.clip.relations import find_violations
 from texvent_scenes.checks.in_view import find_unseen
-from texvent_scenes.checks.relations import find_violations
 from texvent_scenes.models.anchors import find_rim, has_rim
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.tables import nouns_with, trait_value, trait_values

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from tests.scenes.every_row import for_every
 from tests.scenes.staged import DURATION_S, SIZE, thing
 
-from texvent_scenes.checks.surfaces import _MATERIALS
+from texvent_scenes.checks.views.surfaces import _MATERIALS
 from texvent_scenes.defaults import complete
 from texvent_scenes.description import SceneDescription, to_description
 from texvent_scenes.models.effects import EFFECTS

@@ -8,8 +8,8 @@ import pytest
 from tests.scenes.every_row import for_every
 from tests.scenes.staged import DURATION_S, stage, thing
 
-from texvent_scenes.checks.body_boxes import body_of
-from texvent_scenes.checks.relations import find_violations
+from texvent_scenes.checks.clip.body_boxes import body_of
+from texvent_scenes.checks.clip.relations import find_violations
 from texvent_scenes.description import IndexedRelation, SceneDescription
 from texvent_scenes.models.activities import ACTIVITIES, PERSON_NOUNS
 from texvent_scenes.models.anchors import find_support

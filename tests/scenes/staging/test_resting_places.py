@@ -10,7 +10,7 @@ from tests.scenes.staging.test_containers import lost_relations
 from tests.scenes.test_short_prompts import staged
 
 from texvent_scenes.checks.in_view import find_unseen
-from texvent_scenes.checks.water import find_wet_and_dry, wet_share
+from texvent_scenes.checks.surroundings.water import find_wet_and_dry, wet_share
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.places import PLACES
 from texvent_scenes.models.shapes import bounds, compose

@@ -9,17 +9,14 @@ from dataclasses import replace
 import numpy as np
 
 from texvent.errors import ConfigError
-from texvent_scenes.colours import rgb_of
-from texvent_scenes.description import STANDING, IndexedRelation, SceneDescription, label_of
+from texvent_scenes.description import IndexedRelation, SceneDescription, label_of
 from texvent_scenes.models.activities import PERSON_NOUNS
-from texvent_scenes.models.materials import in_material
 from texvent_scenes.models.protocol import Model, Noun
 from texvent_scenes.models.shapes import point
 from texvent_scenes.models.tables import nouns_with, trait_value
-from texvent_scenes.pictures import PicturedModel, can_show
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.spec.data import WAYS
-from texvent_scenes.staging.actors import Actor, is_centred, lowest_point, seeded, size_of
+from texvent_scenes.staging.actors import Actor, lowest_point, seeded, size_of
 from texvent_scenes.staging.camera.journey import TravelPlan
 from texvent_scenes.staging.interactions.perform import perform_acts
 from texvent_scenes.staging.interactions.settling import settle_motions
@@ -28,24 +25,21 @@ from texvent_scenes.staging.placement.apart import (
     RESTING,
     NoRoomError,
     borne_places,
-    is_measured,
     list_awaited,
     list_unkept,
     plan_spacing,
 )
+from texvent_scenes.staging.placement.group_building import GroupBuilder
+from texvent_scenes.staging.placement.heights import Heights
 from texvent_scenes.staging.placement.kept_places import refuse_beside, refuse_moved
 from texvent_scenes.staging.placement.object_groups import (
     Goal,
     ObjectGroup,
     choose_props,
-    dressed,
-    half_extents_over_clip,
     join_way,
     match_pace,
     overlap,
     part_in_midst,
-    rests,
-    stagger,
 )
 from texvent_scenes.staging.placement.relations import (
     INVERSE,
@@ -56,12 +50,8 @@ from texvent_scenes.staging.placement.relations import (
     place_on_targets,
 )
 from texvent_scenes.staging.placement.rows import stands
-from texvent_scenes.staging.placement.sizes import Sizes
-from texvent_scenes.staging.placement.tags import list_pictures, note_tags
-from texvent_scenes.staging.placement.told_apart import list_telling, note_alike, unlike
 from texvent_scenes.staging.placement.ways import has_fault, lead
 from texvent_scenes.staging.placement.zones import list_orphans
-from texvent_scenes.staging.surroundings.environment import lies_ashore
 from texvent_scenes.staging.tracks.choose_track import (
     choose_track,
     orbit,
@@ -69,10 +59,9 @@ from texvent_scenes.staging.tracks.choose_track import (
 from texvent_scenes.staging.tracks.keys import Vector
 from texvent_scenes.staging.tracks.leaning import keep_up
 from texvent_scenes.staging.tracks.motion_plan import (
-    plan_motion,
     raised,
 )
-from texvent_scenes.staging.tracks.phases import haste_of, hovering_m
+from texvent_scenes.staging.tracks.phases import haste_of
 from texvent_scenes.staging.tracks.track import Track, lifted, seated
 
 _MUCH_LARGER = 1.3
@@ -84,10 +73,6 @@ _PASSED = 1.2
 _PACE = 0.4
 """From what a person goes round to the person, in sizes."""
 _ATTEMPTS = 400
-_HOVERS, _STANDING = ("hover", "float"), ("ground", "fixed")
-_LEVEL, _LEVEL_SHARE = ("beside", "at", "with", "left of", "right of"), 0.75
-"""Motions, habitats and relations of what is in the air next to a thing, at so much of its
-height."""
 _SIDES = {"left": -1.0, "right": 1.0}
 
 
@@ -105,8 +90,12 @@ class ObjectPlacer:
         travel: TravelPlan | None = None,
     ) -> None:
         self._description = settle_motions(description, nouns, seed)
-        self._nouns = nouns
-        self._sizes = Sizes(self._description, nouns, is_trip=travel is not None)
+        builder = GroupBuilder(
+            self._description, nouns, seed=seed, duration_s=duration_s, is_trip=travel is not None
+        )
+        self.build_group = builder.build
+        """An object's copies in formation about (0, 0), by its index."""
+        self._heights = Heights(self._description, nouns, level_m, self.build_group)
         self._seed = seed
         self._duration_s = duration_s
         self._level_m = level_m
@@ -115,7 +104,7 @@ class ObjectPlacer:
         self.orphans = frozenset(list_orphans(self._description))
         self.not_shown: list[str] = []
         """Objects that have no place, and why."""
-        self.notes: list[str] = []
+        self.notes = builder.notes
         """Sizes that are not the usual ones, and why."""
         self._why_apart = ""
         self._travel = travel
@@ -148,52 +137,6 @@ class ObjectPlacer:
         if noun in nouns_with("larger than a room"):
             return "it is larger than the room: say another place, or smoke, steam or dust"
         return "nobody has it and nothing carries it: say who or where"
-
-    def build_group(self, index: int) -> ObjectGroup:
-        """An object's copies in formation about (0, 0)."""
-        scene_object = self._description.objects[index]
-        noun = dressed(self._description, index, self._nouns)
-        rng = seeded(self._seed, "thing", index, scene_object.noun)
-        share, notes = self._sizes.share(index)
-        size = scene_object.size * share
-        self.notes.extend(notes)
-        colour = rgb_of(scene_object.colour)
-        seeds = [int(rng.integers(2**31)) for _ in range(scene_object.count)]
-        seeds = seeds[:1] * len(seeds) if noun.name in nouns_with("alike") else seeds
-        told = list_telling(self._description, index)
-        seeds = [unlike(noun, seed, told) for seed in seeds]
-        self.notes.extend(note_alike(noun, seeds, told))
-        models: list[Model] = [
-            in_material(
-                noun.build(colour=colour, scale=size, seed=seed),
-                scene_object.material,
-                colour,
-                rgb_of(scene_object.second_colour),
-            )
-            for seed in seeds
-        ]
-        if can_show(noun.name):
-            shown = list_pictures(self._description.objects, index)
-            self.notes.extend(note_tags(label_of(self._description, index), scene_object, shown))
-            models = [PicturedModel(one, noun.name, picture) if picture is not None else one
-                      for one, picture in zip(models, shown, strict=True)]  # fmt: skip
-        motions, start_m = scene_object.motions or (STANDING,), scene_object.height_m
-        rows = [one.value for one in self._description.claims
-                if one.kind == "row" and one.subject == index]  # fmt: skip
-        is_queue = "queue" in rows and noun.motion == "walk" and not motions[0].is_moving
-        heading_deg = 0.0 if is_queue and not scene_object.heading_deg else scene_object.heading_deg
-        plan = plan_motion(
-            motions, noun, models[0], self._duration_s, rng, start_m, heading_deg
-        )  # fmt: skip
-        is_open = heading_deg is None and all(one.direction != "diagonal" for one in motions)
-        if is_open and is_measured(self._description, index):  # square to the axes
-            heading_deg = 90.0 * round(math.degrees(plan.yaw) / 90.0)
-            plan = plan_motion(
-                motions, noun, models[0], self._duration_s, rng, start_m, heading_deg
-            )  # fmt: skip
-        offsets = stagger(models, plan, noun, rng, is_row=bool(rows))
-        half = half_extents_over_clip(models, offsets, plan)
-        return ObjectGroup(index, scene_object, noun, models, plan, offsets, half)
 
     def _place(self, index: int, waiting: frozenset[int]) -> None:
         """Place an object, after the objects its place depends on."""
@@ -258,7 +201,7 @@ class ObjectPlacer:
 
     def _choose_goal(self, group: ObjectGroup, related: Sequence[IndexedRelation]) -> Goal:
         """Goal of a group in the scene."""
-        height = self._height(group)
+        height = self._heights.of(group)
         for relation in related:
             targets = [self.groups[t] for t in relation.targets if t in self.groups]
             if relation.kind in WAYS and targets:
@@ -396,49 +339,6 @@ class ObjectPlacer:
             return 0.0
         side = -1.0 if len(others) % 2 else 1.0
         return side * 0.35 * (others[0].models[0].length + group.models[0].length)
-
-    def _height(self, group: ObjectGroup) -> float:
-        """Height of the group's origin, m."""
-        kind, name, habitat = group.plan.motion.kind, group.noun.name, group.noun.habitat
-        levels, air = self._level_m, self._level_m.get("air", 0.0)
-        beside_m = self._height_beside(group)
-        if group.plan.start_m is not None:
-            return group.origin_m
-        if group.scene_object.height_m is not None:
-            return group.scene_object.height_m - lowest_point(group.models[0])
-        if beside_m is not None:
-            return beside_m
-        if lies_ashore(group.noun, kind):
-            return -lowest_point(group.models[0])
-        is_resting = rests(group.noun, kind) and name not in levels
-        lifts = kind in ("rise", "sink", "fall") and air > 0.0
-        if (is_resting or lifts) and is_centred(group.noun) and habitat == "air":
-            return -lowest_point(group.models[0])
-        if kind == "float" and "afloat" in levels:
-            return levels["afloat"] * group.models[0].height - lowest_point(group.models[0])
-        if name in levels and not (kind == "fly" and group.noun.motion == "fly"):
-            return levels[name] * group.models[0].height
-        is_hung = name in nouns_with("hangs from a ceiling")
-        if kind in _HOVERS and habitat in _STANDING and air > 0.0 and not is_hung:
-            foot_m = max(-lowest_point(group.models[0]), 0.0)
-            return foot_m + hovering_m(group.models[0], group.plan.motion)
-        level = levels.get(habitat, 0.0) or (air if kind == "fly" else 0.0)
-        if level == 0.0:
-            return 0.0
-        clear = levels.get("clear", 0.0) if habitat == "air" or kind == "fly" else 0.0
-        return level * max(group.size_m, 1.0) + clear
-
-    def _height_beside(self, group: ObjectGroup) -> float | None:
-        """Height of what hovers beside a thing that stands there, by its upper part, m."""
-        if group.noun.habitat != "air" or group.plan.motion.kind not in _HOVERS:
-            return None
-        for one in self._description.relations:
-            other = one.targets[0]
-            habitat = self._nouns[self._description.objects[other].noun].habitat
-            if one.subject == group.index and one.kind in _LEVEL and habitat in _STANDING:
-                top_m = self.build_group(other).models[0].height
-                return max(_LEVEL_SHARE * top_m, -1.5 * lowest_point(group.models[0]))
-        return None
 
     def _find_free_position(self, group: ObjectGroup, goal: Goal) -> Float64Array:
         """The goal, or the nearest free position along its slide, alternating sides.

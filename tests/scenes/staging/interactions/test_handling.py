@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.scenes.test_short_prompts import is_right, report, staged
 
-from texvent_scenes.checks.acts import handles
-from texvent_scenes.checks.staged_clip import StagedClip
+from texvent_scenes.checks.bodies.acts import handles
+from texvent_scenes.checks.clip.staged_clip import StagedClip
 from texvent_scenes.description import Claim
 from texvent_scenes.models.activities import ACTIVITIES, PERSON_NOUNS, is_mutual, nouns_upon
 from texvent_scenes.models.materials import Material

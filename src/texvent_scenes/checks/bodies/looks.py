@@ -6,8 +6,8 @@ from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 
 import numpy as np
 
-from texvent_scenes.checks.parts import Place, is_made_of
-from texvent_scenes.checks.relations import Violation
+from texvent_scenes.checks.bodies.parts import Place, is_made_of
+from texvent_scenes.checks.clip.relations import Violation
 from texvent_scenes.colours import SURFACES, find_colour
 from texvent_scenes.description import Claim, SceneDescription
 from texvent_scenes.models.activities import PERSON_NOUNS

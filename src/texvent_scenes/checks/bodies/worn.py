@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from texvent_scenes.checks.pictures import SmallPictures
+from texvent_scenes.checks.views.pictures import SmallPictures
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.nouns import NOUNS

@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 
 from texvent.sensor import SensorSize
-from texvent_scenes.checks.places import find_unseen_place, share_of_walls
-from texvent_scenes.checks.relations import Violation
-from texvent_scenes.checks.surfaces import join_words
+from texvent_scenes.checks.clip.relations import Violation
+from texvent_scenes.checks.surroundings.places import find_unseen_place, share_of_walls
+from texvent_scenes.checks.views.surfaces import join_words
 from texvent_scenes.defaults import NO_PLACE
 from texvent_scenes.description import STANDING, SceneDescription, label_of
 from texvent_scenes.models.effects import EFFECTS, LAMPS

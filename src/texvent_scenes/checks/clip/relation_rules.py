@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent_scenes.checks.body_boxes import BodyBoxes
+from texvent_scenes.checks.clip.body_boxes import BodyBoxes
 from texvent_scenes.rendered_scene import Float64Array
 
 _Flags = NDArray[np.bool_]

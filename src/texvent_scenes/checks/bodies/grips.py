@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from texvent_scenes.checks.staged_clip import StagedClip
+from texvent_scenes.checks.clip.staged_clip import StagedClip
 from texvent_scenes.description import Claim
 from texvent_scenes.rendered_scene import Float64Array
 from texvent_scenes.staging.actors import Actor, size_of

@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from texvent_scenes.checks.staged_clip import StagedClip
+from texvent_scenes.checks.clip.staged_clip import StagedClip
 from texvent_scenes.description import Claim
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.rendered_scene import Float64Array

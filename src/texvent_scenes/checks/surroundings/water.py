@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from texvent_scenes.checks.relations import Violation
-from texvent_scenes.checks.staged_clip import StagedClip
+from texvent_scenes.checks.clip.relations import Violation
+from texvent_scenes.checks.clip.staged_clip import StagedClip
 from texvent_scenes.description import Claim, SceneDescription, label_of
 from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.rendered_scene import Float64Array, Ground

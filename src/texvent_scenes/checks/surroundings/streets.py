@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from texvent_scenes.checks.staged_clip import StagedClip
+from texvent_scenes.checks.clip.staged_clip import StagedClip
 from texvent_scenes.description import Claim
 from texvent_scenes.rendered_scene import Ground
 from texvent_scenes.staging.surroundings.road_line import RoadLine

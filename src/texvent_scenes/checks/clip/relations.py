@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from texvent_scenes.checks.body_boxes import BodyBoxes
-from texvent_scenes.checks.relation_rules import RULES, are_still, is_between
+from texvent_scenes.checks.clip.body_boxes import BodyBoxes
+from texvent_scenes.checks.clip.relation_rules import RULES, are_still, is_between
 from texvent_scenes.description import SceneDescription, label_of
 from texvent_scenes.models.anchors import has_rim
 from texvent_scenes.models.nouns import AFLOAT, NOUNS

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.sensor import SensorSize
-from texvent_scenes.checks.staged_clip import StagedClip
+from texvent_scenes.checks.clip.staged_clip import StagedClip
 from texvent_scenes.colours import name_colour
 from texvent_scenes.raycast.ground_truth import cast_centres
 from texvent_scenes.raycast.render import world_and_shapes

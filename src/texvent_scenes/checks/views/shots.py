@@ -10,7 +10,7 @@ import numpy as np
 
 from texvent.camera import PosedCamera, project
 from texvent.sensor import SensorSize
-from texvent_scenes.checks.relations import Violation
+from texvent_scenes.checks.clip.relations import Violation
 from texvent_scenes.description import SceneDescription
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.shapes import bounds, moved

@@ -8,9 +8,9 @@ import numpy as np
 
 from texvent.camera import PosedCamera, project
 from texvent.sensor import SensorSize
-from texvent_scenes.checks.body_boxes import is_any_inside
-from texvent_scenes.checks.relations import Violation
-from texvent_scenes.checks.water import wet_share
+from texvent_scenes.checks.clip.body_boxes import is_any_inside
+from texvent_scenes.checks.clip.relations import Violation
+from texvent_scenes.checks.surroundings.water import wet_share
 from texvent_scenes.description import SceneDescription, label_of
 from texvent_scenes.models.places import PLACES, SEEN_FROM_AFAR
 from texvent_scenes.models.tables import nouns_with

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from texvent_scenes.checks.staged_clip import StagedClip, is_inside
+from texvent_scenes.checks.clip.staged_clip import StagedClip, is_inside
 from texvent_scenes.description import Claim
 from texvent_scenes.models.activities import (
     ACTIVITIES,

@@ -10,8 +10,8 @@ import numpy as np
 
 from texvent.camera import project
 from texvent.sensor import SensorSize
-from texvent_scenes.checks.body_boxes import BodyBoxes, body_of
-from texvent_scenes.checks.relations import find_violations
+from texvent_scenes.checks.clip.body_boxes import BodyBoxes, body_of
+from texvent_scenes.checks.clip.relations import find_violations
 from texvent_scenes.description import Claim, IndexedRelation, SceneDescription
 from texvent_scenes.models.tables import trait_value
 from texvent_scenes.raycast.ground_truth import visible_instances

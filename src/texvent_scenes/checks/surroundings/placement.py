@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent_scenes.checks.relations import Violation
+from texvent_scenes.checks.clip.relations import Violation
 from texvent_scenes.description import STANDING, SceneDescription
 from texvent_scenes.models.activities import PERSON_NOUNS
 from texvent_scenes.models.anchors import has_rim

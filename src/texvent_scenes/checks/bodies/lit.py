@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from texvent.camera import project
-from texvent_scenes.checks.parts import is_lit_in
-from texvent_scenes.checks.staged_clip import StagedClip
+from texvent_scenes.checks.bodies.parts import is_lit_in
+from texvent_scenes.checks.clip.staged_clip import StagedClip
 from texvent_scenes.colours import SURFACES, find_colour
 from texvent_scenes.description import Claim
 from texvent_scenes.models.materials import has_colour

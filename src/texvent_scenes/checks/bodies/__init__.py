@@ -1,0 +1,1 @@
+"""Checks of bodies: acts, limbs, parts, lamps and looks."""

@@ -1,0 +1,1 @@
+"""Checks of where bodies are: places, streets, water, edges and supports."""

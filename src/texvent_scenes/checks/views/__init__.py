@@ -1,0 +1,1 @@
+"""Checks of what the camera sees: shots, its ways, small pictures and surfaces in them."""
