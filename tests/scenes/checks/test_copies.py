@@ -11,7 +11,7 @@ import numpy as np
 from tests.examples import one_of
 from tests.scenes.staged import DURATION_S, SIZE, stage, thing
 
-from texvent_scenes.checks.staged_clip import StagedClip
+from texvent_scenes.checks.clip.staged_clip import StagedClip
 from texvent_scenes.checks.words import CHECKS
 from texvent_scenes.description import Claim, SceneDescription
 from texvent_scenes.spec.scene import Motion, Place, SceneObject
