@@ -16,11 +16,10 @@ AFLOAT_MOTIONS = ("sail", "paddle")
 AT_HAND = frozenset({"hold", "wear", "act on"})
 IN_WATER = ("swim", "surf", "plunge", *AFLOAT_MOTIONS)
 _PLACES_OF_TRAVEL = {"drive": "road", "cycle": "road", "sail": "sea", "swim": "underwater"}
-_BEDS = {
-    None: "underwater",
-    "sea": "underwater",
-    **dict.fromkeys(("lake", "pond", "river"), "lake bed"),
-}
+_BEDS: dict[str | None, str] = {
+    None: "underwater", "sea": "underwater",
+    "lake": "lake bed", "pond": "lake bed", "river": "lake bed",
+}  # fmt: skip
 """Waters, or no place, in which all dive → their beds."""
 _NO_GROUND = ("sky", "space", "underwater", "lake bed")
 _FAST_FLYER_M_S = 9.0
