@@ -94,6 +94,11 @@ class ObjectGroup:
         return np.asarray(self.middle[:2] + self.lag_m)
 
     @property
+    def takes_along(self) -> bool:
+        """Whether what is on it leaves its place with it: it goes, or is itself on what goes."""
+        return self.is_going or self.carrier is not None
+
+    @property
     def is_going(self) -> bool:
         """Whether it leaves its place or turns at any time."""
         path = self.plan.path

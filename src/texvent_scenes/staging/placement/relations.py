@@ -287,7 +287,7 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
     kind, is_person = group.plan.motion.kind, group.noun.name in PERSON_NOUNS
     if (on_face := _rest_on_face(group, target, neighbours)) is not None:
         return on_face
-    if target.is_going:
+    if target.takes_along:
         group.carrier = target
     if is_person and _sits(group, target):
         return _seat_on(group, target, neighbours)
@@ -359,7 +359,7 @@ def _put_on_face(group: ObjectGroup, target: ObjectGroup) -> Float64Array:
     """
     own, face = group.models[0], target.models[0]
     turns = target.plan.motion.kind == "spin"
-    if target.is_going:
+    if target.takes_along:
         group.carrier = target
     group.fit()
     up_m = 0.5 * (face.height - own.height) + _OFF_MIDDLE * face.height * turns
@@ -415,7 +415,7 @@ def rest_in(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
     """As `rest_on`, in a container so that its top looks out, and unseen in what is closed."""
     open_below = nouns_with("passage") | nouns_with("stood in")
     if target.noun.name in nouns_with("closed") | open_below:
-        if target.is_going:
+        if target.takes_along:
             group.carrier = target
         low = 0.05 * target.models[0].height if target.noun.name in nouns_with("closed") else 0.0
         return target.to_world(0.0, 0.0, low + group.origin_m)
@@ -433,7 +433,7 @@ def rest_in(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
 def _put_in(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
     """The middle of a group in a container, where what goes somewhere goes to and fro."""
     support = hollow_of(target)
-    if target.is_going:
+    if target.takes_along:
         group.carrier = target
     reach_m = reach_of(group.models[0], len(neighbours))
     line_up(group, target, support, neighbours, reach_m)
