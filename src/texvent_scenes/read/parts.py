@@ -89,8 +89,8 @@ def say_parts(draft: SceneDraft, groups: Sequence[Group], subjects: Indices) -> 
         if group.article in ("a", "an") and not group.is_plural:
             counts |= {1} if draft.counts_parts(subjects, part) else set()
         has = [one for one in subjects if draft.things[one]["noun"] in owned[part]]
-        drawn = {draft.count_part(one, part, counts) or owned[part][draft.things[one]["noun"]]
-                 for one in has}  # fmt: skip
+        usual = {one: owned[part][draft.things[one]["noun"]] for one in has}
+        drawn = {draft.count_part(one, part, counts, usual[one]) for one in has}
         for word in each if has and counts <= drawn else ():
             _say_of_part(draft, word, part, has)
     return True

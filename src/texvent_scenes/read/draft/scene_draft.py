@@ -173,14 +173,14 @@ class SceneDraft(Abilities):
         own = [self.noun(one).find_choice(word) for one in indices]
         return any(one is not None and one.most for one in own)
 
-    def count_part(self, index: int, word: str, counts: Collection[float]) -> int | None:
+    def count_part(self, index: int, word: str, counts: Collection[float], usual: int) -> int:
         """Give an object a number of parts, if it can have so many; how many it has then.
 
-        None: the number of these is always the same.
+        `usual` is that of parts whose number is always the same.
         """
         own = self.noun(index).find_choice(word)
         if own is None or not own.most:
-            return None
+            return usual
         count = int(next(iter(counts), own.usual))
         if len(counts) > 1 or not 0 < count <= own.most:
             return own.usual
