@@ -1,13 +1,28 @@
-"""What prompts are expected to say, as facts and in a line, and what a scene says."""
+"""What prompts are expected to say, as facts and in a line, what a scene says, and kept claims.
 
+    python -m tests.scenes.read.expected    # writes the claims anew; CHANGELOG.md says why
+
+`claims.json.gz` has for each sentence of `sentences.txt`, of `checks/words.txt` and of
+`golden/reported.txt` a checksum of its words and of what they depend on, then what the staged scene
+must hold for them to be shown. Scenes alone, which `sentences.txt` has, do not tell it.
+"""
+
+import gzip
+import json
+import re
 import tomllib
 from collections.abc import Callable, Mapping
+from functools import cache
 from pathlib import Path
 from typing import Any
+from zlib import crc32
+
+from tests.scenes.golden.golden import read_lines
 
 from texvent.errors import InputError
-from texvent_scenes.description import SceneDescription
-from texvent_scenes.read import Reading
+from texvent_scenes.description import SEEN, Claim, SceneDescription
+from texvent_scenes.models.nouns import NOUNS
+from texvent_scenes.read import Reading, read
 from texvent_scenes.scene_input import list_nouns, understand
 from texvent_scenes.spec.data import scene_to_data
 
@@ -105,3 +120,52 @@ def _say_object(data: dict) -> str:
         said = (one[name] for name in ("count", "colour", "name") if name in one)
         parts.append(f"has {' '.join(map(str, said))}")
     return ", ".join(parts)
+
+
+CLAIMS = Path(__file__).with_name("claims.json.gz")
+WORDS = Path(__file__).parents[1] / "checks" / "words.txt"
+
+read_once = cache(lambda sentence: read(sentence, NOUNS))
+
+
+def list_sentences() -> list[str]:
+    """All sentences, each once."""
+    checked = re.findall(r"^([^#\n].*) => ", WORDS.read_text("utf-8"), re.MULTILINE)
+    said = [prompt for prompt, _ in sentences()]
+    return [*dict.fromkeys([*said, *checked, *read_lines("reported.txt")])]
+
+
+def _say_claim(one: Claim) -> str:
+    about = [*([] if one.subject is None else [one.subject]), *one.targets]
+    return " ".join([f"{one.word}:", one.kind, *([str(one.value)] * (one.value != "")),
+                     *map(str, about)])  # fmt: skip
+
+
+def say_claims(reading: Reading) -> str:
+    """A checksum of words and of what they depend on, then all claims but that bodies are seen."""
+    words = reading.shown, reading.open_words, reading.dependences, [
+        one for one in reading.claims if one.kind == SEEN]  # fmt: skip
+    claims = dict.fromkeys(_say_claim(one) for one in reading.claims if one.kind != SEEN)
+    return "; ".join([f"{crc32(repr(words).encode()):08x}", *claims])
+
+
+def list_claims() -> Mapping[str, str]:
+    """Sentence → what it claims."""
+    found = {}
+    for sentence in list_sentences():
+        try:
+            found[sentence] = say_claims(read_once(sentence))
+        except InputError:
+            found[sentence] = "refused"
+    return found
+
+
+def stored_claims() -> Mapping[str, str]:
+    """Sentence → what it claimed."""
+    found: dict[str, str] = json.loads(gzip.decompress(CLAIMS.read_bytes()))
+    return found
+
+
+if __name__ == "__main__":
+    text = json.dumps(list_claims(), indent=0)
+    CLAIMS.write_bytes(gzip.compress(text.encode(), mtime=0))

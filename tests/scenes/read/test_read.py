@@ -8,8 +8,15 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from tests.examples import examples, one_of
 from tests.scenes.every_row import for_every
-from tests.scenes.read.claims import list_claims, read_once, stored_claims
-from tests.scenes.read.expected import PROMPTS, grade, say, sentences
+from tests.scenes.read.expected import (
+    PROMPTS,
+    grade,
+    list_claims,
+    read_once,
+    say,
+    sentences,
+    stored_claims,
+)
 
 from texvent.errors import InputError
 from texvent_scenes import read as reader
