@@ -450,10 +450,10 @@ def _swing_riders(description: SceneDescription) -> SceneDescription:
         for n in one.targets if one.kind in ("on", "ride") else ():
             does = {each.kind for each in description.objects[one.subject].motions}
             riders.setdefault(n, set()).update(does)
-    new: dict[int, Motion | None] = {}
+    new: dict[int, Motion] = {}
     for n, does in riders.items():
-        one = description.objects[n]
-        is_free = one.noun in nouns_with("swings") and one.motion is None
+        seat = description.objects[n]
+        is_free = seat.noun in nouns_with("swings") and seat.motion is None
         if is_free and does <= {"sit"} and description.is_sentence:
             new[n] = Motion("work")
             note = f"no motion is said of the {label_of(description, n)}, so it swings who is on it"
