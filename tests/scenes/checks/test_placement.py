@@ -6,6 +6,8 @@ from tests.scenes.staged import DURATION_S, moved, road_of, stage, stage_text, t
 
 from texvent_scenes.checks.surroundings.placement import find_misplaced
 from texvent_scenes.description import SceneDescription
+from texvent_scenes.models import shapes
+from texvent_scenes.models.tables import nouns_with
 from texvent_scenes.spec.scene import Place
 
 TIMES_S = np.linspace(0.0, DURATION_S, 7)
@@ -158,3 +160,15 @@ def test_what_lies_or_falls_over_is_on_its_side_in_the_end_or_it_is_said(text, i
     said, scene = stage_text(text)
     found = find_misplaced(said, scene.place, scene.environment(0.0), scene.actors, TIMES_S)
     assert is_laid == (not any(one.kind == "motion" for one in found))
+
+
+@pytest.mark.parametrize("noun", sorted(nouns_with("hangs from a ceiling")))
+def test_what_hangs_from_a_ceiling_is_above_heads_and_on_a_cord_up_to_it(noun):
+    scene = stage(thing(noun, ("stand",)), place="indoor")
+    (one,) = (each for each in scene.actors if each.noun.name == noun)
+    assert one.lowest_m(0.0) > 1.85
+    ceiling_m = scene.animated_environment.base.ceiling_m
+    cords = [shapes.moved(hung.parts, hung.to_world) for hung, _ in scene.threads]
+    assert max(float(shapes.bounds(each)[1][2]) for each in cords) == pytest.approx(
+        ceiling_m, abs=0.01
+    )
