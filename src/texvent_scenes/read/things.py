@@ -79,7 +79,7 @@ def pick_group(draft: SceneDraft, group: Group, known: int) -> list[int]:
 
 
 def _find_doer(draft: SceneDraft) -> list[int]:
-    """Who acts on something, as "another" does then: "hits a ball and another catches it"."""
+    """Person who acts on something: "hits a ball and another catches it"."""
     acting = (one for one in draft.last.subjects if draft.acts([one]) and draft.walks(one))
     return [*acting][:1]
 

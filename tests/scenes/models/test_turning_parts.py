@@ -11,6 +11,8 @@ from texvent_scenes.models.protocol import ModelPart, Pose
 from texvent_scenes.rendered_scene import Shape
 
 RESTS = {
+    "gear": "its shaft is fixed to its stand",
+    "disco ball": "its cord hangs from the ceiling",
     "fidget spinner": "fingers hold its cap",
     "lighthouse": "its lamp shines out of a lantern that rests",
 }
