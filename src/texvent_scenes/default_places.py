@@ -1,4 +1,4 @@
-"""Default places of scenes that leave them open, and ways along their corridors."""
+"""Default places of scenes and of what is far in them, and ways along their corridors."""
 
 from __future__ import annotations
 
@@ -12,6 +12,8 @@ from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.spec.scene import Direction, Place, SceneObject
 
+_STRUCK_FAR = 5.0
+"""Size of lightning that strikes far off."""
 AFLOAT_MOTIONS = ("sail", "paddle")
 AT_HAND = frozenset({"hold", "wear", "act on"})
 IN_WATER = ("swim", "surf", "plunge", *AFLOAT_MOTIONS)
@@ -138,3 +140,29 @@ def lead_along(description: SceneDescription, nouns: Mapping[str, Noun]) -> Scen
 
     objects = (led(one, is_back or n in aimed) for n, one in enumerate(description.objects))
     return replace(description, objects=tuple(objects))
+
+
+def set_far(description: SceneDescription) -> SceneDescription:
+    """Towering objects stand in the background of others that they are not related to."""
+    towering, objects = nouns_with("towering"), description.objects
+    related = {n for one in description.relations for n in (one.subject, *one.targets)}
+    related |= {n for n in (description.index(description.camera.target),) if n is not None}
+    if all(one.noun in towering for one in objects):
+        return description
+    far = (n for n, one in enumerate(objects)
+           if one.noun in towering and (one.placement, one.position_m) == (None, None))  # fmt: skip
+    return description.replaced({n: replace(objects[n], placement="far") for n in {*far} - related})
+
+
+def strike_far(description: SceneDescription) -> SceneDescription:
+    """Lightning strikes far off, unless the scene says what it strikes or how large it is."""
+    related = {n for one in description.relations for n in (one.subject, *one.targets)
+               if one.kind != "above"}  # fmt: skip
+    new = {
+        n: replace(one, size=_STRUCK_FAR, placement=one.placement or (
+            "far" if len(description.objects) > one.count else None))
+        for n, one in enumerate(description.objects)
+        if one.noun in nouns_with("out of clouds") and n not in related and one.size == 1.0
+        and one.position_m is None
+    }  # fmt: skip
+    return description.replaced(new)

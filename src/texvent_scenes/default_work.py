@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from texvent_scenes.description import STANDING, WAYS_DEG
+from texvent_scenes.description import STANDING, WAYS_DEG, SceneDescription
 from texvent_scenes.models.protocol import Noun
 from texvent_scenes.models.tables import nouns_with, trait_value
 from texvent_scenes.spec.scene import Direction, Motion, SceneObject
@@ -122,3 +122,15 @@ def list_work(motions: Sequence[Motion], noun: Noun) -> tuple[Motion, ...]:
     return tuple(
         replace(one, start_s=said.start_s) for one, said in zip(done, motions, strict=True)
     )
+
+
+def list_swung(description: SceneDescription) -> list[int]:
+    """Swings of a sentence of which no motion is said, and on which others only sit."""
+    riders: dict[int, set[str]] = {}
+    for one in description.relations:
+        for n in one.targets if one.kind in ("on", "ride") else ():
+            does = {each.kind for each in description.objects[one.subject].motions}
+            riders.setdefault(n, set()).update(does)
+    swings = (n for n, does in riders.items() if does <= {"sit"})
+    return [n for n in swings if description.is_sentence and description.objects[n].motion is None
+            and description.objects[n].noun in nouns_with("swings")]  # fmt: skip

@@ -9,11 +9,19 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from texvent_scenes.default_places import AFLOAT_MOTIONS, AT_HAND, choose_place, lead_along
+from texvent_scenes.default_places import (
+    AFLOAT_MOTIONS,
+    AT_HAND,
+    choose_place,
+    lead_along,
+    set_far,
+    strike_far,
+)
 from texvent_scenes.default_work import (
     AT_REST,
     aligned,
     is_work,
+    list_swung,
     list_work,
     stands_still,
     work_of,
@@ -54,8 +62,6 @@ _DARK_EFFECTS = frozenset({"fireworks", "fireflies"})
 _GOES = frozenset({"drive", "fly", "sail", "paddle", "slide", "roll", "reverse"})
 _ROUTES = frozenset({"past", "overtake", "through", "towards", "away from", "from", "follow"})
 """Relations of what goes somewhere."""
-_STRUCK_FAR = 5.0
-"""Size of lightning that strikes far off."""
 
 
 def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
@@ -65,9 +71,14 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     first object that can move does what it usually does; when none can, the camera sways.
     """
     at_rest = {n for n, one in enumerate(description.objects) if stands_still(one, nouns[one.noun])}
-    description = _swing_riders(description)
+    swung = list_swung(description)
+    for n in swung:
+        label = label_of(description, n)
+        note = f"no motion is said of the {label}, so it swings who is on it"
+        description = _note(description, note)
+    description = _move(description, dict.fromkeys(swung, Motion("work")))
     description = _set_on_routes(description, nouns)
-    description = _rest(_set_down(_strike_far(_set_far(_ground(description)))), nouns)
+    description = _rest(_set_down(strike_far(set_far(_ground(description)))), nouns)
     objects = tuple(
         replace(
             one,
@@ -114,7 +125,7 @@ def _snow_over(description: SceneDescription) -> SceneDescription:
     """Hills without a colour of their own, under the snow that lies on all."""
     new = {n: replace(one, colour="white") for n, one in enumerate(description.objects)
            if one.colour is None and one.noun in nouns_with("of ground")}  # fmt: skip
-    return _change(description, new)
+    return description.replaced(new)
 
 
 def _set_afloat(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
@@ -126,7 +137,7 @@ def _set_afloat(description: SceneDescription, nouns: Mapping[str, Noun]) -> Sce
         for n, one in enumerate(description.objects)
         if nouns[one.noun].habitat in ("ground", "fixed") and one.height_m is None
     }  # fmt: skip
-    return _change(description, new)
+    return description.replaced(new)
 
 
 def _set_down(description: SceneDescription) -> SceneDescription:
@@ -170,18 +181,12 @@ def _note(description: SceneDescription, note: str) -> SceneDescription:
     return replace(description, notes=(*description.notes, note))
 
 
-def _change(description: SceneDescription, new: Mapping[int, SceneObject]) -> SceneDescription:
-    """The description with some objects replaced."""
-    objects = tuple(new.get(n, one) for n, one in enumerate(description.objects))
-    return replace(description, objects=objects)
-
-
 def _move(description: SceneDescription, motions: Mapping[int, Motion]) -> SceneDescription:
     """The description with motions of objects that have none."""
     objects = description.objects
     new = {n: replace(objects[n], motions=(one,)) for n, one in motions.items()
            if not objects[n].motions}  # fmt: skip
-    return _change(description, new)
+    return description.replaced(new)
 
 
 def _lead_companions(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
@@ -251,32 +256,6 @@ def _after(motion: Motion, noun: Noun, leader: Noun) -> Motion:
     kind = motion.kind if is_on_foot else _GOING.get(noun.motion, noun.motion)
     pace = motion.pace if motion.end_pace is not None else 1.0
     return replace(motion, kind=kind, speed_m_s=speed, pace=pace)
-
-
-def _set_far(description: SceneDescription) -> SceneDescription:
-    """Towering objects stand in the background of others that they are not related to."""
-    towering, objects = nouns_with("towering"), description.objects
-    related = {n for one in description.relations for n in (one.subject, *one.targets)}
-    related |= {n for n in (description.index(description.camera.target),) if n is not None}
-    if all(one.noun in towering for one in objects):
-        return description
-    far = (n for n, one in enumerate(objects)
-           if one.noun in towering and (one.placement, one.position_m) == (None, None))  # fmt: skip
-    return _change(description, {n: replace(objects[n], placement="far") for n in {*far} - related})
-
-
-def _strike_far(description: SceneDescription) -> SceneDescription:
-    """Lightning strikes far off, unless the scene says what it strikes or how large it is."""
-    related = {n for one in description.relations for n in (one.subject, *one.targets)
-               if one.kind != "above"}  # fmt: skip
-    new = {
-        n: replace(one, size=_STRUCK_FAR, placement=one.placement or (
-            "far" if len(description.objects) > one.count else None))
-        for n, one in enumerate(description.objects)
-        if one.noun in nouns_with("out of clouds") and n not in related and one.size == 1.0
-        and one.position_m is None
-    }  # fmt: skip
-    return _change(description, new)
 
 
 def decide_motions(
@@ -397,7 +376,7 @@ def _move_others(description: SceneDescription, nouns: Mapping[str, Noun]) -> Sc
         aim = description.index(description.camera.target)
         for n in movers[:1] if aim is None else {aim}.intersection(movers):
             motions[n] = Motion(kinds[n].motion)
-    return _move(_change(description, new), motions)
+    return _move(description.replaced(new), motions)
 
 
 def _has_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> bool:
@@ -444,24 +423,6 @@ def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
     return _note(replace(description, camera=camera), note)
 
 
-def _swing_riders(description: SceneDescription) -> SceneDescription:
-    """Let swings of sentences swing who only sits on them."""
-    riders: dict[int, set[str]] = {}
-    for one in description.relations:
-        for n in one.targets if one.kind in ("on", "ride") else ():
-            does = {each.kind for each in description.objects[one.subject].motions}
-            riders.setdefault(n, set()).update(does)
-    new: dict[int, Motion] = {}
-    for n, does in riders.items():
-        swing = description.objects[n]
-        is_free = swing.noun in nouns_with("swings") and swing.motion is None
-        if is_free and does <= {"sit"} and description.is_sentence:
-            new[n] = Motion("work")
-            note = f"no motion is said of the {label_of(description, n)}, so it swings who is on it"
-            description = _note(description, note)
-    return _move(description, new)
-
-
 def _stays_together(description: SceneDescription, nouns: Mapping[str, Noun]) -> bool:
     """Whether one object that goes off would leave the others behind."""
     others = [nouns[one.noun] for one in description.objects if one.noun not in PERSON_NOUNS]
@@ -506,7 +467,7 @@ def _park(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDesc
     for each in grounded:
         told = f"the {each} has no wings to fly with, and is drawn as it stands"
         description = _note(description, told)
-    return _change(description, new)
+    return description.replaced(new)
 
 
 def _darken(description: SceneDescription) -> SceneDescription:

@@ -102,6 +102,11 @@ class SceneDescription(Scene):
         """Index of the object of an id."""
         return None if id is None else object_ids(self).index(id)
 
+    def replaced(self, new: Mapping[int, SceneObject]) -> SceneDescription:
+        """The description with some objects replaced, by their indices."""
+        objects = tuple(new.get(n, one) for n, one in enumerate(self.objects))
+        return replace(self, objects=objects)
+
 
 def label_of(description: SceneDescription, index: int) -> str:
     """Name of an object in lines: its noun, or its id in a file that has several of the noun.

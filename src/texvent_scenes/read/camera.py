@@ -46,9 +46,8 @@ def is_ego(draft: SceneDraft, clause: Clause) -> bool:
 def sit_in(draft: SceneDraft, clause: Clause) -> Clause | None:
     """The clause of a driver's view of who goes through a passage, said of the camera itself.
 
-    "A car exits a tunnel, dashcam view", "a car drives along a road seen through the windscreen",
-    "dashcam view entering a tunnel";
-    None: no camera is in that vehicle.
+    As in "a car exits a tunnel, dashcam view", "a car drives along a road seen through the
+    windscreen", "dashcam view entering a tunnel"; None: no camera is in that vehicle.
     """
     said = [(token, sense.value) for token in draft.tokens for sense in token.all("shot")]
     shots = {value for _, value in said}

@@ -237,7 +237,8 @@ WINGED = sorted({*VARIANTS.values()} & {name for name, one in NOUNS.items() if "
 @for_every(WINGED)
 def test_a_bird_that_flies_lies_along_its_way_with_its_wings_spread(noun):
     beat = [Pose(at, 0.0, 5.0, "fly") for at in np.linspace(0.0, 0.6, 7)]
-    span = extents_m(f"flying {noun}", *beat)
+    span, rest = extents_m(f"flying {noun}", *beat), extents_m(noun, STILL)
+    assert span[1] > 1.7 * rest[1] or noun == "peacock"  # whose fan is spread at rest
     model = NOUNS[f"flying {noun}"].build(colour=None, scale=1.0, seed=0)
     body = np.array([np.ptp(bounds([one]), axis=0) for one in model.parts(beat[0])])[0]
     assert body[0] > 1.2 * body[2]  # the trunk lies along x

@@ -134,8 +134,7 @@ def test_what_turns_about_its_front_or_width_does_so_about_its_hub(row):
     np.testing.assert_allclose(ways, np.broadcast_to(ways[0], (9, 3)), atol=2e-3)
     lows = [actor.lowest_m(t) for t in np.linspace(1.0, 2.0, 9)]
     assert min(lows) > -0.01
-    is_whole = is_round and actor.model.height < 2.1 * max(hubs, key=lambda one: one[0])[0]
-    assert not is_whole or max(lows) < 0.02 * actor.model.height + 0.01  # it has no leg
+    assert not is_round or max(lows) < 0.02 * actor.model.height + 0.01
 
 
 @for_every(ROLLING)

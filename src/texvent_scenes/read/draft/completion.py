@@ -28,7 +28,7 @@ def complete(draft: SceneDraft) -> None:
 def _choose_gender(draft: SceneDraft) -> None:
     """Draw the only person as the one that a pronoun means: "a teacher chops her carrots".
 
-    Words that say a sex keep it: of a boy "her" means somebody else.
+    A noun that says a sex keeps it: after "a boy", "her" means another person.
     """
     persons = [one for one in draft.things if one["noun"] in PERSON_NOUNS]
     usual = persons[0]["noun"] if len(persons) == 1 and persons[0]["count"] == 1 else ""

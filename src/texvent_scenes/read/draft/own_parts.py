@@ -16,7 +16,7 @@ _OF_LAMPS = ("is_lit", "blink_hz", "switch_s")
 
 
 def take_parts(draft: SceneDraft) -> None:
-    """Let what stands on a body that has such parts be these parts: no candles beside its own."""
+    """Merge things on a body into its own parts of that kind: candles on a cake."""
     index = 0
     while index < len(draft.things):
         whole, choice = _find_whole(draft, index)

@@ -35,8 +35,6 @@ from texvent_scenes.words import find_literals
 
 _OF_PARTICLES = ("plain", "lamp", "machine")
 """Subjects of what is no verb with a particle before a noun: "comes down the road"."""
-_OVER_WAYS = {"cross", "crosses", "crossing", "crossed", "over", "across", "on", "at"}
-"""Words after which a crossing is a place, whatever follows."""
 _NEAR = 4
 """Words after a light verb among which what is done is named."""
 MOST_WORDS = 1000
@@ -382,7 +380,7 @@ def _without_chance(
     articles = word_set("senses", "articles")
     goes_on = articles | word_set("things", "routes")
     led_by = next((one.text for one in reversed(before) if not one.has("articles")), "")
-    is_way = led_by in _OVER_WAYS  # "crosses a zebra crossing from the right"
+    is_way = led_by in word_set("things", "over_ways")  # "crosses a zebra crossing from the right"
     is_verb = (
         words[end].endswith("ing")
         and not is_way

@@ -1,4 +1,4 @@
-"""Heights of objects: of what flies, floats or hovers, and of what stands."""
+"""Heights of objects above the ground: in flight, afloat, hovering and at rest."""
 
 from __future__ import annotations
 
