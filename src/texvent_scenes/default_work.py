@@ -55,7 +55,8 @@ def work_of(motion: Motion | None, noun: Noun) -> Motion:
         pace, said = motion.rate_hz / own_hz, {"rate_hz": motion.rate_hz}
     elif motion.speed_m_s is not None and belt_m_s is not None:
         pace, said = motion.speed_m_s / belt_m_s, {"speed_m_s": motion.speed_m_s}
-    elif motion.kind in ("spin", "turn", "swing"):  # "rotates" is no slower than usual
+    elif motion.kind in ("spin", "turn", "swing") and motion.end_pace is None:  # not "spins up"
+        # "rotates" is no slower than usual
         pace = max(pace, 1.0)
     return Motion("work", direction, pace, end_pace=motion.end_pace, **said)
 

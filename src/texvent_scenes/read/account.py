@@ -261,7 +261,9 @@ def _build(draft: SceneDraft, prompt: str) -> Scene:
             below = {draft.things[to]["noun"] for each in one["relations"] for to in each["to"]
                      if each["kind"] in ("on", "ride")}  # fmt: skip
             is_seated = one["noun"] in PERSON_NOUNS and bool(below & _SEATS)
-            one["motions"].append({"kind": "sit" if is_seated else "stand"})
+            floats = draft.nouns[one["noun"]].motion == "float" and not one["relations"]
+            rest = "sit" if is_seated else "float" if floats else "stand"
+            one["motions"].append({"kind": rest})
         for relation in one["relations"]:
             relation["to"] = [ids[target] for target in relation["to"]]
     for each in (draft.parts["camera"], *draft.effects):

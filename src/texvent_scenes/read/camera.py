@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -23,6 +23,8 @@ _STAYING = frozenset({"handheld", "roll", "truck"})
 """Moves of a camera over what it looks at."""
 _TURNS = frozenset({"pan", "tilt"})
 """Moves of a camera that stays where it is."""
+_MOUTHS = {"into": "centre", "out of": "near"}
+"""Way of a camera through one end of a passage → the passage's placement."""
 _DRIVEN = "travel forward drive"
 """Shot from a vehicle on a road."""
 _FIRST_PERSON = ("camera", "view", "first person")
@@ -57,10 +59,11 @@ def sit_in(draft: SceneDraft, clause: Clause) -> Clause | None:
     if _DRIVEN not in shots or draft.things or not (is_driven and clause.verb):
         return None
     head = (clause.subjects[0].head if clause.subjects else None) or NO_TOKEN
-    way, drive = Sense("relation", "through"), lexicon_of(draft.nouns)[("driving",)]
-    first = Phrase(Token("through", clause.verb.at), clause.objects)
+    drive = lexicon_of(draft.nouns)[("driving",)]
+    led = [one.value.relation for one in clause.verb.all("verb")]
+    first = Phrase(replace(clause.verb, senses=_passed(led)), clause.objects)
     after = [one if isinstance(one, Token) or not _names_passage(one.groups) else
-             Phrase(replace(one.preposition, senses=(way,)), one.groups)
+             Phrase(replace(one.preposition, senses=_passed(one.preposition.relations)), one.groups)
              for one in (first, *clause.after) if isinstance(one, Token) or one.groups]  # fmt: skip
     is_own = any((one.value.who, one.value.kind, one.value.relation) == ("plain", "drive", None)
                  for one in clause.verb.all("verb"))  # fmt: skip
@@ -74,6 +77,11 @@ def sit_in(draft: SceneDraft, clause: Clause) -> Clause | None:
         draft.mark(head, "camera")
     verb = replace(clause.verb, senses=drive)
     return replace(clause, subjects=(), objects=(), verb=verb, after=tuple(after))
+
+
+def _passed(relations: Iterable[str | None]) -> tuple[Sense, ...]:
+    """Sense of a way through a passage, or through one of its ends."""
+    return (Sense("relation", next((one for one in relations if one in _MOUTHS), "through")),)
 
 
 def _is_own_pane(token: Token) -> bool:
@@ -217,9 +225,10 @@ def _see_past(draft: SceneDraft, move: dict[str, Any] | None, phrase: Phrase) ->
     turns = move is not None and move["kind"] in ("pan", "tilt")
     is_swept = turns and token.text in word_set("things", "swept")
     is_side = bool(found) and kind in word_set("things", "sides") and not is_swept
-    if found and kind in ("through", "out of"):
+    if found and kind in ("through", "into", "out of"):
         ahead = move or next(iter(draft.moves[-1:]), None)  # "forward motion through a tunnel"
-        is_side = ahead is None or not go_through(draft, ahead, token, found)
+        is_led = ahead is not None and go_through(draft, ahead, token, found)
+        is_side = not is_led and (kind != "into" or (ahead or {}).get("kind") == "travel")
     is_over = look_over(draft, token, found)
     is_low = kind == "above" and _keeps_to_ground(draft, move)
     claim_way(draft, move, token, [] if is_over or is_low else found)
@@ -336,12 +345,14 @@ def go_through(
         return False
     if move["kind"] == "dolly":
         move |= split_move("travel forward") | {"means": "walk"}
-    is_out = preposition.text == "out of"
-    draft.claim(preposition, "camera out", "", [None] if is_out else [], targets)
+    is_open = nouns <= nouns_with("fits who goes through")
+    way = preposition.relation or ""
+    mouth = _MOUTHS.get(way)
+    draft.claim(preposition, "camera mouth", way, [None] if mouth else [], targets)
     for thing in (draft.things[one] for one in targets):
         opens = "stand open" in draft.nouns[thing["noun"]].acts
         thing["motions"] = thing["motions"] or [{"kind": "stand open"}] * opens
-        thing |= {"placement": "near"} if is_out else {}
+        thing |= {"placement": mouth} if mouth and is_open else {}
     return True
 
 

@@ -34,6 +34,8 @@ _MEANT = {"circle": ("orbit", (*MEANS, "move", "orbit")), "stays": ("spin", ("tu
 _REST = Pose(0.0, 0.0, 0.0, "stand")
 _CROWD = 5
 """Persons who are a crowd."""
+_REACHED = 2.0
+"""Pace that who starts from rest reaches, where none is said."""
 _ASIDE = ("left", "right", "across", "towards", "away")
 """Directions in which what hovers leaves its place."""
 
@@ -272,6 +274,9 @@ def _say_field(draft: SceneDraft, token: Token, said: Sense, index: int) -> None
     if name == "direction" and motions and value in ("across", "diagonal"):
         held = {"across", "diagonal"} & {motions[-1].get("direction")}
         value = "diagonal" if held else value  # "diagonally across the screen"
+    if name == "start_pace":  # "accelerates from standstill"
+        name, value = "pace", value / (motions[-1].get("pace", 1.0) if motions else 1.0)
+        set_field(draft.things[index], said.kind, "end_pace", end or _REACHED)
     set_field(draft.things[index], said.kind, name, value)
     draft.quantities[index, name] = value
 

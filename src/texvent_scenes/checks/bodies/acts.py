@@ -319,7 +319,7 @@ def moves(staged: StagedClip, claim: Claim) -> bool:
 
 
 def changes_pace(staged: StagedClip, claim: Claim) -> bool:
-    """Whether it turns faster or slower at the end than at first, as a body."""
+    """Whether it, or its parts, turn faster or slower at the end than at first."""
     for one in staged.own(claim):
         first = _turning_rate(one, staged.times[0] + _EDGE_S)
         last = _turning_rate(one, staged.times[-1] - _EDGE_S)
@@ -329,7 +329,9 @@ def changes_pace(staged: StagedClip, claim: Claim) -> bool:
 
 
 def _turning_rate(one: Actor, time_s: float) -> float:
-    """Rate at which a body turns, rad/s."""
+    """Rate at which a body turns, rad/s; of a machine that stays, the tempo of its parts."""
+    if one.noun.is_working:
+        return (one.pose(time_s + _INSTANT_S).time_s - one.pose(time_s).time_s) / _INSTANT_S
     first, second = (one.track.at(time_s + late).to_world()[:, :3] for late in (0.0, _INSTANT_S))
     cosine = 0.5 * (float(np.trace(first.T @ second)) - 1.0)
     return math.acos(min(max(cosine, -1.0), 1.0)) / _INSTANT_S
@@ -379,13 +381,15 @@ def bounces(staged: StagedClip, claim: Claim) -> bool:
     return True
 
 
-def comes_out(staged: StagedClip, claim: Claim) -> bool:
-    """Whether the camera is in something at first, whose walls it sees, and no more at the end."""
+def passes_mouth(staged: StagedClip, claim: Claim) -> bool:
+    """Whether the camera goes "into" or "out of" something, whose walls it sees from within."""
     bodies = [one for n in claim.targets for one in staged.list_actors(n)]
     ends = [[is_inside(one, staged.scene.camera(at).position, at) for one in bodies]
             for at in (0.0, staged.duration_s)]  # fmt: skip
-    walls = staged.share_of({one.instance for one in bodies}, 0.0)
-    return any(ends[0]) and not any(ends[1]) and walls >= _WALLS
+    within, without = ends[::-1] if claim.value == "into" else ends
+    at_s = staged.duration_s if claim.value == "into" else 0.0
+    walls = staged.share_of({one.instance for one in bodies}, at_s)
+    return any(within) and not any(without) and walls >= _WALLS
 
 
 def breaks(staged: StagedClip, claim: Claim) -> bool:

@@ -298,13 +298,15 @@ def _is_beside(one: BodyBoxes, other: BodyBoxes) -> _Flags:
 
 
 def is_between(one: BodyBoxes, first: BodyBoxes, second: BodyBoxes) -> _Flags:
-    """Whether its middle lies on the way from one to the other, or near that."""
+    """Whether its middle is near the way from one to the other, and its foot not above both."""
     way = (second.middle - first.middle)[:, :2]
     off = (one.middle - first.middle)[:, :2]
     length = np.maximum(np.linalg.norm(way, axis=1), 1e-6)
     along = (off * way).sum(axis=1) / length**2
     aside = np.abs(off[:, 0] * way[:, 1] - off[:, 1] * way[:, 0]) / length
-    return np.asarray((along > 0.0) & (along < 1.0) & (aside <= _ON_THE_WAY * length))
+    tops = [each.middle[:, 2] + 0.5 * each.size[:, 2] for each in (first, second)]
+    is_below = one.middle[:, 2] - 0.5 * one.size[:, 2] <= np.minimum(*tops)
+    return np.asarray((along > 0.0) & (along < 1.0) & (aside <= _ON_THE_WAY * length) & is_below)
 
 
 def _is_following(one: BodyBoxes, other: BodyBoxes) -> _Flags:

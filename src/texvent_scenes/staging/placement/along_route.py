@@ -19,9 +19,9 @@ from texvent_scenes.staging.tracks.track import centred
 _SEEN = 1.8
 """Distance ahead, as a multiple of that aside, from which on a thing is in the picture."""
 _GAP_M = 1.5
-_OUT_SHARE, _BEHIND_M = 0.9, 3.0
-"""Share of the route after which the camera comes out of a passage; how far that goes on behind
-it at first, m."""
+_MOUTHS = {"near": (-3.0, 0.0, 0.9), "centre": (0.0, 0.55, 2.5)}
+"""Placement of a passage that the camera comes out of or goes into → where it begins, m and share
+of the route, and where it ends, share of the route."""
 _OPEN, _BY_THE_WALL_M = 0.17, 1.3
 """Half of what is open of the width of a passage; least room between its wall and the camera, m."""
 _SIDES, _LANE_GAP_M = {"left": -1.0, "right": 1.0}, 1.7
@@ -77,10 +77,12 @@ class RoutePlacer:
         if is_passage and group.noun.name in nouns_with("fits who goes through"):  # over the road
             room_m = max(_OPEN * group.models[0].width - _BY_THE_WALL_M, 0.0)
             aside = min(max(float(travel.road.offset[0]), -room_m), room_m)
-        if is_passage and group.scene_object.placement == "near":  # the camera comes out of it
-            out_m = _OUT_SHARE * travel.length_m
-            group.models = [Lengthened(one, out_m + _BEHIND_M) for one in group.models]
-            along = out_m - 0.5 * (out_m + _BEHIND_M)
+        mouths = _MOUTHS.get(group.scene_object.placement or "") if is_passage else None
+        if mouths is not None:
+            start = mouths[0] + mouths[1] * travel.length_m
+            stop = mouths[2] * travel.length_m
+            group.models = [Lengthened(one, stop - start) for one in group.models]
+            along = 0.5 * (start + stop)
         if is_goal or not is_passage:
             # Just beyond the end of the route, where the camera does not come.
             along = travel.length_m + self._beyond_m + 3.0 + 0.9 * group.size_m

@@ -102,18 +102,7 @@ def place_on_targets(
     if kind == "at" and targets[0].noun.name not in nouns_with("table"):
         return place_by_subject(group, "beside", targets[0], height)
     if kind == "between":  # where `object_placement` has left room
-        if leads_between(group):
-            group.plan = replace(group.plan, yaw=_INTO_PICTURE)
-            group.fit()
-        x, y = np.mean([target.centre for target in targets], axis=0)[:2]
-        if len(targets) == 1 and len(targets[0].models) > 1:
-            x, y = find_gap(targets[0])
-        if group.plan.is_path and zone_of(targets[0].noun) == "road":  # it comes out of the gap
-            yaw, out = group.plan.yaw, _OUT * group.plan.travel_m
-            x, y = x + out * math.cos(yaw), y + out * math.sin(yaw)
-        is_said = all(target.scene_object.position_m is not None for target in targets)
-        is_fixed = is_said or len(targets) == 1
-        return Goal(np.array([x, y, height]), _FIXED if is_fixed else -_AWAY)
+        return _place_between(group, targets, height)
     rest = {"on": rest_on, "in": rest_in, "at": place_at}.get(kind)
     if rest is not None:
         return Goal(rest(group, targets[0], neighbours), _FIXED)
@@ -127,6 +116,25 @@ def leads_between(group: ObjectGroup) -> bool:
     plan = group.plan
     is_free = plan.motion.direction is None and group.scene_object.heading_deg is None
     return plan.is_path and plan.path is None and is_free and zone_of(group.noun) != "road"
+
+
+def _place_between(group: ObjectGroup, targets: Sequence[ObjectGroup], height: float) -> Goal:
+    """In the middle of targets, or in the widest gap of one; what flies is as high as they are."""
+    if leads_between(group):
+        group.plan = replace(group.plan, yaw=_INTO_PICTURE)
+        group.fit()
+    x, y = np.mean([target.centre for target in targets], axis=0)[:2]
+    if len(targets) == 1 and len(targets[0].models) > 1:
+        x, y = find_gap(targets[0])
+    if group.plan.is_path and zone_of(targets[0].noun) == "road":  # it comes out of the gap
+        yaw, out = group.plan.yaw, _OUT * group.plan.travel_m
+        x, y = x + out * math.cos(yaw), y + out * math.sin(yaw)
+    if group.noun.habitat == "air" and group.scene_object.height_m is None:
+        low = max(0.5 * min(one.top_m for one in targets), group.models[0].height)
+        height = min(height, low)
+    is_said = all(target.scene_object.position_m is not None for target in targets)
+    is_fixed = is_said or len(targets) == 1
+    return Goal(np.array([x, y, height]), _FIXED if is_fixed else -_AWAY)
 
 
 def _place_around(
