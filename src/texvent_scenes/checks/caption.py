@@ -43,6 +43,10 @@ _LEAST_SHARE, _MOST_SCENERY = 0.004, 4
 _STAYS, _STIRS, _TURNS, _HALF = 0.05, 0.01, math.radians(4.0), 0.6
 """Way of a body that stays, in its sizes and m; way of a part that moves, in those; turn that is
 told; share of a body, of which less is seen than of one that is hidden by half."""
+_SWUNG = 0.8
+"""Way of the middle of what leans, in its sizes, per rad."""
+_OVER = math.radians(120.0)
+"""Angle from which on a thing that leans turns round."""
 _SUPPORTED_M, _GROUND_M, _APART = 0.06, 0.12, 0.15
 """Gap to the support of a body, and height up to which it is on the ground, m; gap to what has let
 it go from which on it is in the air, in its heights."""
@@ -189,10 +193,12 @@ def _tell_way(staged: StagedClip, one: Actor) -> str:
     """Ways to a side, to the camera and up; turns of who stays."""
     places = np.asarray([one.middle(time_s) for time_s in staged.fine_times])
     path = float(np.linalg.norm(np.diff(places, axis=0), axis=1).sum())
-    if path <= max(_STAYS * one.size_m, 0.5 * _STAYS):
+    least_m = max(_STAYS * one.size_m, 0.5 * _STAYS)
+    leans = _tell_lean(staged, one, float(np.ptp(places, axis=0).max()))
+    if leans or path <= least_m:
         turned = np.unwrap([one.track.at(time_s).yaw for time_s in staged.fine_times])
         angle = float(np.ptp(turned))
-        return f"turns by {math.degrees(angle):.0f}°" if angle >= _TURNS else "stays"
+        return leans or (f"turns by {math.degrees(angle):.0f}°" if angle >= _TURNS else "stays")
     net = places[-1] - places[0]
     speed = _round(path / max(staged.duration_s, 1e-9))
     if float(np.linalg.norm(net)) < 0.3 * path:
@@ -210,6 +216,30 @@ def _tell_way(staged: StagedClip, one: Actor) -> str:
     is_bent = path > _BENT * float(np.linalg.norm(net))
     least = (_BENT_SHARE if is_bent else 0.3) * max(length for length, _ in ways)
     return f"goes {join_words([words for length, words in ways if length >= least])} at {speed} m/s"
+
+
+def _tell_lean(staged: StagedClip, one: Actor, way_m: float) -> str:
+    """Angle by which the upright axis of a thing leans on the spot, and how often; "" = none."""
+    states = [one.track.at(time_s) for time_s in staged.fine_times]
+    rolls = is_ball(one) or any(each.activity == "roll" for each in states)
+    lives = one.noun.name in PERSON_NOUNS or (one.noun.acts and one.noun.speed_m_s)
+    if lives or rolls:
+        return ""
+    axes = np.asarray([each.to_world()[:, 2] for each in states])
+    off = axes - axes.mean(axis=0)
+    along = off @ np.linalg.svd(off, full_matrices=False)[2][0]
+    ends = axes[int(along.argmin())], axes[int(along.argmax())]
+    angle = math.acos(min(max(float(ends[0] @ ends[1]), -1.0), 1.0))
+    if angle < _TURNS or way_m > _SWUNG * angle * one.size_m:
+        return ""
+    side = np.sign(along - 0.5 * (along.max() + along.min()))
+    crossed = np.asarray(staged.fine_times)[1:][np.diff(side) != 0]
+    is_told = len(crossed) > 1
+    rate_hz = 0.5 * (len(crossed) - 1) / np.ptp(crossed) if is_told else 0.0
+    rate = f" at {_round(rate_hz)} Hz" * is_told
+    if angle > _OVER:
+        return f"turns round{rate}"
+    return f"tilts {'to and fro ' * is_told}by {math.degrees(angle):.0f}°{rate}"
 
 
 def _tell_place_of(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:

@@ -182,7 +182,7 @@ def test_every_place_is_named_with_its_light(name):
 @pytest.mark.parametrize("kind", ["hover", "sway", "shake", "bounce"])
 def test_small_motions_have_a_line_whichever_way_they_go(noun, kind):
     _, (line,), _ = lines({"noun": noun, "motions": [{"kind": kind}]}, camera={"framing": "close"})
-    assert re.search(r"(goes .*\d m.* at |stays|turns by)", line), line
+    assert re.search(r"(goes .*\d m.* at |stays|turns by|tilts .*by 16°)", line), line
 
 
 @pytest.mark.parametrize("act", ["turn red", "turn green", "turn amber"])
@@ -191,3 +191,18 @@ def test_a_light_that_changes_once_has_no_rate(act, timed):
     _, (line,), _ = lines({"noun": "traffic light", "motions": [{"kind": act, **timed}]})
     assert "acts: " in line
     assert "Hz" not in line, line
+
+
+@pytest.mark.parametrize(
+    ("motion", "words"),
+    [({"kind": "sway", "rate_hz": 2.0}, "tilts to and fro by 16"),
+     ({"kind": "topple"}, "tilts by 90"),
+     ({"kind": "tilt", "rate_hz": 1.5}, "tilts to and fro by 46")],
+)  # fmt: skip
+@pytest.mark.parametrize("noun", ["checkerboard", "box", "tree", "bottle", "sign"])
+def test_what_leans_on_the_spot_goes_no_way(noun, motion, words):
+    _, (line,), _ = lines({"noun": noun, "motions": [motion]})
+    rate = float((re.search(r" at ([\d.]+) Hz", line) or [0, "0"])[1])
+    assert re.search(rf"\b{words}\b", line), line
+    assert "goes" not in line
+    assert rate == pytest.approx(motion.get("rate_hz", 0.0), rel=0.1)
