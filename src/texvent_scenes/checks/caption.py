@@ -245,7 +245,8 @@ def _tell_lean(staged: StagedClip, one: Actor, way_m: float) -> str:
 def _tell_place_of(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
     """Support of it at the middle of the clip, or its height above the ground."""
     at = len(staged.times) // 2
-    if carried := _tell_carrier(staged, one, staged.times[at]):
+    carried = _tell_carrier(staged, one, staged.times[at])
+    if carried and not carried.startswith("in the air"):
         return carried
     low = body.middle[at] - 0.5 * body.size[at]
     tied = ((each.object_index, each.track.anchor) for each in staged.scene.actors)
@@ -258,7 +259,8 @@ def _tell_place_of(staged: StagedClip, one: Actor, body: BodyBoxes) -> str:
                 is_low = body.middle[at, 2] < other.middle[at, 2] + 0.5 * other.size[at, 2]
                 way = "in" if is_low and (one.object_index, index) in held_in else "on"
                 return f"{way} the {_plain(staged.description.objects[index].noun)}"
-    if inside := _find_holder(staged, one, body, at):
+    loose = carried * bool(low[2] > _GROUND_M)
+    if inside := loose or _find_holder(staged, one, body, at):
         return inside
     place = staged.scene.place
     if place.ground in (Ground.NONE, Ground.UNDERWATER):

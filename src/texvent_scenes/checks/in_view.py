@@ -24,6 +24,7 @@ from texvent_scenes.checks.bodies.phases import (
     find_undone,
     find_unfinished,
     find_unhurried,
+    find_unlifted,
     list_departures,
     list_hidden,
     list_rounds,
@@ -346,6 +347,7 @@ def _find_unrealised(
     yield from find_airborne_meals(description, scene, times)
     yield from find_unhurried(description, scene.actors, times)
     yield from find_unfinished(description, duration_s)
+    yield from find_unlifted(description, scene.actors, duration_s)
     yield from find_wet_and_dry(scene, description, duration_s)
     yield from find_unshown(scene, description, [share * duration_s for share in _INSTANTS])
 

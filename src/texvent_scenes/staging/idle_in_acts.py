@@ -149,7 +149,7 @@ def _idle_of(
             is_usual = motion.kind in staging.settled(n, without) | RESTS | {act}
             idle = [each.name for each in fields(Motion) if each.name != "kind"
                     and getattr(motion, each.name) != each.default]  # fmt: skip
-            why = f"its act ({act}) decides what a {one.noun} does; leave it out"
+            why = f"its act ({act}) decides what the {one.noun} does; leave it out"
             if not is_usual:
                 yield Idle(f"{path}.kind", why)
             elif idle:

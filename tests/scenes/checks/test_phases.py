@@ -7,14 +7,17 @@ import numpy as np
 import pytest
 from tests.scenes.checks.test_pictures import SMALL
 from tests.scenes.every_row import for_every
-from tests.scenes.staged import SIZE, in_image, stage, stage_text, thing
+from tests.scenes.staged import DURATION_S, SIZE, in_image, stage, stage_text, thing
 from tests.scenes.test_short_prompts import report
 
 from texvent_scenes.checks.bodies.limbs import find_tiny
-from texvent_scenes.checks.bodies.phases import find_unhurried
-from texvent_scenes.description import SceneDescription
+from texvent_scenes.checks.bodies.phases import find_unhurried, find_unlifted
+from texvent_scenes.defaults import complete
+from texvent_scenes.description import SceneDescription, to_description
+from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.models.places import PLACES
-from texvent_scenes.spec.scene import Motion, SceneObject
+from texvent_scenes.spec.scene import Motion, Relation, Scene, SceneObject
+from texvent_scenes.staging.compose import compose_scene
 
 
 def test_a_cyclist_has_one_bicycle():
@@ -98,3 +101,17 @@ def test_a_camera_that_goes_through_a_room_sees_its_furniture(row):
 )  # fmt: skip
 def test_who_does_not_come_once_round_is_told(text, is_told):
     assert any("of the way round" in one for one in report(text).notes) == is_told
+
+
+@pytest.mark.parametrize("start_s", [0.0, 0.5, 1.0, 1.8])
+@pytest.mark.parametrize("noun", ["robot arm", "forklift"])
+@pytest.mark.parametrize("target", ["box", "bottle", "pallet"])
+def test_what_is_lifted_too_late_is_told(noun, target, start_s):
+    lifter = SceneObject(noun, motions=(Motion("work", start_s=start_s),),
+                         relations=(Relation("lift", (target,)),))  # fmt: skip
+    said = to_description(Scene(objects=(lifter, SceneObject(target))))
+    scene = compose_scene(complete(said, NOUNS), seed=0, size=SIZE, duration_s=DURATION_S)
+    lifted = next(one for one in scene.actors if one.noun.name == target)
+    rise_m = lifted.middle(DURATION_S)[2] - lifted.middle(0.0)[2]
+    told = [*find_unlifted(said, scene.actors, DURATION_S)]
+    assert bool(told) == (rise_m < 0.1 * lifted.size_m)

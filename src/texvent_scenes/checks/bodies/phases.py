@@ -46,6 +46,8 @@ _RUNNING = 0.5
 """Share of its usual speed from which on a body runs."""
 _DONE = 0.7
 """Share of an act from which on one sees that it is done."""
+_LIFTED = 0.1
+"""Rise of what is lifted, in its sizes."""
 _TOLD, _SURELY = 4, 16
 """Points of the image from which on a body is no speck; those in its box of which one is surely on
 it."""
@@ -121,6 +123,23 @@ def find_unfinished(description: SceneDescription, duration_s: float) -> Iterato
                 name = label_of(description, index)
                 line = f"the {name}'s {kind}: the clip ends before it is done"
                 yield Violation("motion", kind, line)
+
+
+def find_unlifted(
+    description: SceneDescription, actors: Sequence[Actor], duration_s: float
+) -> Iterator[Violation]:
+    """Things that are to be lifted, and are not yet when the clip ends."""
+    for said in description.relations:
+        if said.kind != "lift" or duration_s < _LEAST_CLIP_S:
+            continue
+        for one in (each for each in actors if each.object_index in said.targets):
+            held_s = min(one.track.grab_s, duration_s)
+            rise_m = one.middle(duration_s)[2] - one.middle(max(held_s, 0.0))[2]
+            if one.track.anchor is not None and held_s > 0.0 and rise_m < _LIFTED * one.size_m:
+                names = [label_of(description, n) for n in (said.subject, one.object_index)]
+                line = f"the {names[0]} lifting the {names[1]}: it gets there after {held_s:.2g} s"
+                yield Violation("relation", "lift", f"{line} of {duration_s:g}")
+                break
 
 
 def runs(staged: StagedClip, claim: Claim) -> bool:
