@@ -1,11 +1,14 @@
 """What words of a sentence hang on: each rule in three sentences that have nothing in common."""
 
+import itertools
+
 import pytest
 from tests.scenes.every_row import for_every
 from tests.scenes.read.expected import say
 
 from texvent_scenes.models.nouns import NOUNS
 from texvent_scenes.read import read
+from texvent_scenes.read.parsing.lexicon import lexicon_of
 
 RULES = {
     "a phrase ends before a preposition of several words": [
@@ -83,6 +86,13 @@ RULES = {
         ("forward motion through a tunnel", "tunnel; camera travel forward"),
         ("dashcam view through a tunnel", "tunnel; camera travel forward drive"),
         ("forward walk through a gate", "gate, stand open; camera travel forward walk"),
+    ],
+    "a noun of a way before a preposition is the camera's": [
+        ("night drive through a tunnel",
+         "tunnel; camera travel forward drive; light kind night"),
+        ("a walk through a forest", "camera travel forward walk; place name forest"),
+        ("a flight over a city", "camera travel forward fly; view aerial; place name city"),
+        ("a man takes a walk through a park", "man, walk; place name park"),
     ],
     "her before a phrase is a pronoun": [
         ("a woman stands, cars pass behind her with headlights",
@@ -163,3 +173,19 @@ def test_words_hang_on_what_they_are_said_of(row):
 @pytest.mark.parametrize("text", ["a fish swims around", "gulls fly above", "a dog runs around"])
 def test_particles_that_name_nothing_are_left_to_the_staged_scene(text):
     assert text.split()[-1] in read(text, NOUNS).open_words
+
+
+def shots():
+    """Phrases of shots that name no thing."""
+    for words, senses in lexicon_of(NOUNS).items():
+        kinds = {one.kind for one in senses}
+        if "shot" in kinds and "noun" not in kinds:
+            yield " ".join(words)
+
+
+@for_every([*shots()][::701])
+def test_a_shot_is_read_with_an_article_as_without(phrase):
+    for article, scene in itertools.product(("a", "the"), ("a red car", "two dogs on a beach")):
+        led = "" if phrase.endswith(" of") else "of "
+        bare, full = (read(f"{one}{phrase} {led}{scene}", NOUNS) for one in ("", f"{article} "))
+        assert say(full) == say(bare)

@@ -154,6 +154,9 @@ def split_prompt(prompt: str, lexicon: Lexicon) -> tuple[Token, ...]:
         while at < len(words):
             length, senses = _read_phrase(figures, at, lexicon, found)
             text_of = " ".join(words[at : at + length]).casefold()
+            way = _of_journey(text_of, words[at + 1 :], found, lexicon)
+            found = _without_article(found) if way or _is_shot(senses) else found
+            senses = way or senses
             found.append(Token(text_of, len(found), senses))
             at += length
         if picture is not None:
@@ -164,6 +167,36 @@ def split_prompt(prompt: str, lexicon: Lexicon) -> tuple[Token, ...]:
     if len(found) > MOST_WORDS:
         found[MOST_WORDS:] = [Token(f"{len(found) - MOST_WORDS} more words", MOST_WORDS)]
     return tuple(found)
+
+
+def _without_article(before: Sequence[Token]) -> list[Token]:
+    """Tokens without the article of the shot that follows: "a smooth tracking shot of a car"."""
+    told = [*itertools.takewhile(
+        lambda one: one.has("style", "scene") or (one.is_unknown and not one.is_sign),
+        reversed(before[-_NEAR:]))]  # fmt: skip
+    at = len(before) - 1 - len(told)
+    if at < 0 or not before[at].has("articles"):
+        return [*before]
+    kept = (*before[:at], *before[at + 1 :])
+    return [replace(one, at=number) for number, one in enumerate(kept)]
+
+
+def _is_shot(senses: Senses) -> bool:
+    """Whether a phrase says how a camera sees, and names no thing."""
+    kinds = {one.kind for one in senses}
+    return "shot" in kinds and "noun" not in kinds
+
+
+def _of_journey(
+    text: str, after: Sequence[str], before: Sequence[Token], lexicon: Lexicon
+) -> Senses:
+    """Senses of a way of the camera that a noun names: "a night drive through a tunnel"."""
+    verb = word_table("journeys").get(text)
+    led = before[-1] if before else NO_TOKEN
+    is_named = not before or led.is_sign or led.has("articles", "scene", "style") or led.is_unknown
+    is_done = any(one.text in _light_verbs() for one in before[-3:])
+    leads = bool(after) and after[0].casefold() in word_set("things", "onward") | {"over", "past"}
+    return lexicon.get((verb,), ()) if verb and is_named and leads and not is_done else ()
 
 
 @cache
