@@ -32,6 +32,8 @@ _QUANTITIES = ("rate_hz", "turns_hz", "blink_hz")
 _MEANT = {"circle": ("orbit", (*MEANS, "move", "orbit")), "stays": ("spin", ("turn",))}
 """Adverbs → the motion that some motions are by them: "turns on the spot"."""
 _REST = Pose(0.0, 0.0, 0.0, "stand")
+_ROCKING, _BOTH_WAYS = ("tilt", "sway"), ("to and fro", "up and down")
+"""Motions that turn back by themselves, and the directions that say so."""
 _CROWD = 5
 """Persons who are a crowd."""
 _REACHED = 2.0
@@ -271,6 +273,8 @@ def _say_field(draft: SceneDraft, token: Token, said: Sense, index: int) -> None
         name = "end_m_s" if is_end else name
     if name == "direction" and motions[-1:] and motions[-1]["kind"] == "hover" and value in _ASIDE:
         motions[-1]["kind"] = "move"  # "a bubble floats past"
+    if name == "direction" and motions and motions[-1]["kind"] in _ROCKING and value in _BOTH_WAYS:
+        return  # "tilts back and forth", on the spot
     if name == "direction" and motions and value in ("across", "diagonal"):
         held = {"across", "diagonal"} & {motions[-1].get("direction")}
         value = "diagonal" if held else value  # "diagonally across the screen"

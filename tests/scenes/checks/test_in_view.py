@@ -342,7 +342,9 @@ def test_relations_hold_however_the_world_is_turned_and_left_is_right_in_a_mirro
     # As complex numbers in which the way is from 0 to 1.
     one_m, first, second = (body.middle[:, 0] + 1j * body.middle[:, 1] for body in (one, *others))
     off = (one_m - first) / (second - first)
-    is_between = (off.real > 0.0) & (off.real < 1.0) & (np.abs(off.imag) <= 0.3)
+    low_m = one.middle[:, 2] - 0.5 * one.size[:, 2]
+    is_over = np.any([low_m > body.middle[:, 2] + 0.5 * body.size[:, 2] for body in others], axis=0)
+    is_between = (off.real > 0.0) & (off.real < 1.0) & (np.abs(off.imag) <= 0.3) & ~is_over
     is_still = not any(np.ptp(body.middle, axis=0).any() for body in (one, *others))
     stays = np.mean(is_between) >= 0.5 if is_still else is_between.any()
     assert holds("between", one, others) == stays

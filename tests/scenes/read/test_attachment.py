@@ -94,6 +94,11 @@ RULES = {
         ("a flight over a city", "camera travel forward fly; view aerial; place name city"),
         ("a man takes a walk through a park", "man, walk; place name park"),
     ],
+    "what rocks turns back by itself": [
+        ("a checkerboard is tilted back and forth", "checkerboard, tilt"),
+        ("a tree sways to and fro", "tree, sway"),
+        ("a sign tilts up and down", "sign, tilt"),
+    ],
     "her before a phrase is a pronoun": [
         ("a woman stands, cars pass behind her with headlights",
          "woman, stand; 3 car, is_lit True, move, behind woman"),
